@@ -1,0 +1,89 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Interface of contact plugins. A plugin says how strong the normal reaction is; the framework finds the contacts,
+// applies Newton's third law, regularised Coulomb friction, the stable step and the energy ledger.
+#pragma once
+
+#include "periporo/plugin.hpp"
+#include "periporo/tensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace periporo {
+
+/// One contact between two points, or between a point and a surface, as the law sees it.
+struct ContactPair {
+    double distance;       ///< between the points, or signed above the surface [m]
+    double approach_speed; ///< -d(distance)/dt [m/s]
+    double volume_a;       ///< of the point [m3]
+    double volume_b;       ///< of the other point; 0 for a rigid surface
+    double mass_a;         ///< [kg]
+    double mass_b;         ///< 0 for a rigid surface
+};
+
+/// What the law answers.
+struct ContactResponse {
+    double force = 0.0;         ///< normal force, positive when it pushes apart [N]
+    double stiffness = 0.0;     ///< -d(force)/d(distance), for the stable step [N/m]
+    double energy = 0.0;        ///< stored, recoverable [J]
+    double damping_force = 0.0; ///< the part of `force` that does not come from stored energy [N]
+};
+
+/// Damping ratio zeta of a spring and dashpot whose collisions have the coefficient of restitution e, from
+/// e = exp(-pi zeta/(1 - zeta^2)^(1/2)); 0 for e = 1, 1 for e = 0.
+inline double damping_ratio(double restitution)
+{
+    if (restitution <= 0.0)
+        return 1.0;
+    const double logarithm = std::log(restitution);
+    return -logarithm / std::sqrt(std::numbers::pi * std::numbers::pi + logarithm * logarithm);
+}
+
+/// A linear spring k under an overlap, with a dashpot 2 zeta (k m)^(1/2) beside it; it never pulls, so that a strongly
+/// damped pair parts before its overlap is gone. Nothing without overlap.
+/// @param mass the reduced mass of the pair, the mass of the point at a rigid surface [kg]
+inline ContactResponse spring_and_dashpot(double overlap, double stiffness, double ratio, double mass,
+                                          double approach_speed)
+{
+    if (overlap <= 0.0)
+        return {};
+    const double spring = stiffness * overlap;
+    const double force = std::max(0.0, spring + 2.0 * ratio * std::sqrt(stiffness * mass) * approach_speed);
+    return {force, stiffness, 0.5 * spring * overlap, force - spring};
+}
+
+/// A rigid surface that a contact plugin brings along.
+class RigidSurface {
+public:
+    virtual ~RigidSurface() = default;
+    /// Signed distance of a point, positive on the free side [m]; `normal` becomes the unit normal to the free side.
+    virtual double distance(const Vector3& position, Vector3& normal) const = 0;
+};
+
+/// Lengths of the discretization that a contact law may scale with.
+struct ContactScale {
+    double spacing = 0.0; ///< dx [m]
+    double horizon = 0.0; ///< delta [m]
+};
+
+class Contact {
+public:
+    virtual ~Contact() = default;
+
+    /// Called once before any other call.
+    virtual void scale(const ContactScale& scale) = 0;
+    /// No reaction at or beyond this distance [m].
+    virtual double cutoff() const = 0;
+    /// Coulomb coefficient of friction [-].
+    virtual double friction() const = 0;
+    /// Evaluates a block of contacts; both spans have the same length.
+    virtual void evaluate(std::span<const ContactPair> pairs, std::span<ContactResponse> responses) const = 0;
+    /// The rigid surface the points of the bodies touch, or null for a law between points.
+    virtual const RigidSurface* surface() const { return nullptr; }
+};
+
+} // namespace periporo

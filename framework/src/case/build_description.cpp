@@ -1,0 +1,145 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Moves checked values to where they belong.
+#include "case/build_description.hpp"
+
+#include "case/plane.hpp"
+
+#include <optional>
+
+namespace periporo {
+namespace {
+
+Vector3 vector_of(const std::vector<double>& list)
+{
+    return {list.at(0), list.at(1), list.at(2)};
+}
+
+std::optional<double> optional_real(const Parameters& values, const std::string& name)
+{
+    return values.has(name) ? std::optional(values.real(name)) : std::nullopt;
+}
+
+PluginChoice plugin_choice(const CheckedTable& table, const std::string& selector)
+{
+    return {table.own.text(selector), table.plugin};
+}
+
+DiscretizationDescription discretization_of(const CheckedTable& table)
+{
+    return {table.own.real("spacing"), table.own.real("horizon"), table.own.text("refresh"), table.own.real("skin")};
+}
+
+MaterialDescription material_of(const CheckedTable& table)
+{
+    return {table.name, plugin_choice(table, "model"), table.own.real("grain_density"), table.own.real("porosity")};
+}
+
+InitialStressDescription initial_stress_of(const CheckedTable& table)
+{
+    InitialStressDescription stress;
+    stress.type = table.own.text("type");
+    if (stress.type == "geostatic") {
+        stress.lateral_coefficient = table.own.real("K0");
+        stress.overconsolidation_ratio = table.own.real("overconsolidation_ratio");
+    }
+    return stress;
+}
+
+BodyDescription body_of(const CheckedTable& table)
+{
+    BodyDescription body;
+    body.name = table.name;
+    body.geometry = plugin_choice(table.one("geometry"), "generator");
+    body.material = table.own.text("material");
+    body.suction = table.own.real("suction");
+    body.saturation = table.own.real("saturation");
+    body.velocity = vector_of(table.own.real_list("velocity"));
+    body.initial_stress = initial_stress_of(table.one("initial_stress"));
+    return body;
+}
+
+BoundaryDescription boundary_of(const CheckedTable& table)
+{
+    BoundaryDescription boundary;
+    boundary.type = table.own.text("type");
+    boundary.plane = parse_plane(table.own.text("plane"));
+    if (boundary.type == "periodic")
+        boundary.period = table.own.real("period");
+    return boundary;
+}
+
+StageDescription stage_of(const CheckedTable& table)
+{
+    StageDescription stage;
+    stage.name = table.own.text("name");
+    stage.type = table.own.text("type");
+    const Parameters& until = table.one("until").own;
+    if (stage.type == "quasi_static") {
+        if (table.own.has("rollers"))
+            for (const std::string& plane : table.own.text_list("rollers"))
+                stage.rollers.push_back(parse_plane(plane));
+        stage.residual = until.real("residual");
+        stage.damping = table.own.real("damping");
+        stage.maximum_steps = table.own.integer("maximum_steps");
+        stage.response = table.own.text("response");
+    } else {
+        stage.duration = table.own.real("duration");
+        stage.rest_speed = optional_real(until, "rest_speed");
+    }
+    return stage;
+}
+
+OutputDescription output_of(const CheckedTable& table)
+{
+    OutputDescription output;
+    output.writer = plugin_choice(table, "writer");
+    output.every = optional_real(table.own, "every").value_or(0.0);
+    if (table.own.has("times"))
+        output.times = table.own.real_list("times");
+    return output;
+}
+
+ComparisonDescription comparison_of(const CheckedTable& table)
+{
+    return {table.own.text("law"), table.own.real("radius"), table.own.real("height")};
+}
+
+} // namespace
+
+CaseDescription build_description(const CheckedTable& root)
+{
+    CaseDescription description;
+    description.title = root.own.text("title");
+    description.gravity = vector_of(root.own.real_list("gravity"));
+    description.discretization = discretization_of(root.one("discretization"));
+    const Parameters& operators = root.one("operator").own;
+    description.operators = {operators.text("force_state"), operators.text("influence")};
+    const Parameters& time = root.one("time").own;
+    description.time = {time.real("safety"), optional_real(time, "step")};
+    for (const CheckedTable& table : root.all("material"))
+        description.materials.push_back(material_of(table));
+    for (const CheckedTable& table : root.all("body"))
+        description.bodies.push_back(body_of(table));
+    for (const CheckedTable& table : root.all("boundary"))
+        description.boundaries.push_back(boundary_of(table));
+    for (const CheckedTable& table : root.all("contact"))
+        description.contacts.push_back({plugin_choice(table, "law"), table.own.text_list("between")});
+    for (const CheckedTable& table : root.all("stage"))
+        description.stages.push_back(stage_of(table));
+    for (const CheckedTable& table : root.all("output"))
+        description.outputs.push_back(output_of(table));
+    for (const CheckedTable& table : root.all("comparison"))
+        description.comparison = comparison_of(table);
+    const Parameters& run = root.one("run").own;
+    description.checkpoint_every = run.real("checkpoint_every");
+    description.history_every = run.real("history_every");
+    const Parameters& plugins = root.one("plugins").own;
+    if (plugins.has("paths"))
+        for (const std::string& path : plugins.text_list("paths"))
+            description.plugin_paths.emplace_back(path);
+    return description;
+}
+
+} // namespace periporo

@@ -1,0 +1,211 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Checks between the tables of a case. Values that were wrong themselves are absent here and are passed over.
+#include "case/cross_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <set>
+
+namespace periporo {
+namespace {
+
+/// A value if it was given soundly or has a default. Looks at the values directly: a check is no consumption.
+template <class Value>
+const Value* value_of(const CheckedTable& table, const std::string& key)
+{
+    const auto found = table.own.values().find(key);
+    return found == table.own.values().end() ? nullptr : std::get_if<Value>(&found->second);
+}
+
+std::vector<std::string> names_of(const std::vector<CheckedTable>& tables)
+{
+    std::vector<std::string> names;
+    names.reserve(tables.size());
+    for (const CheckedTable& table : tables)
+        names.push_back(table.name);
+    return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void check_materials_of_bodies(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    const std::vector<std::string> materials = names_of(root.all("material"));
+    std::set<std::string> used;
+    for (const CheckedTable& body : root.all("body")) {
+        const auto* material = value_of<std::string>(body, "material");
+        if (material == nullptr)
+            continue;
+        used.insert(*material);
+        if (!contains(materials, *material))
+            diagnostics.error(body.place_of("material"), fmt::format("there is no [material.{}]", *material),
+                              naming_hint(*material, materials, "materials of the case"));
+    }
+    for (const CheckedTable& material : root.all("material"))
+        if (!used.contains(material.name))
+            diagnostics.warning(material.place, fmt::format("no body is made of material '{}'", material.name));
+}
+
+void check_water(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    for (const CheckedTable& body : root.all("body")) {
+        const auto* suction = value_of<double>(body, "suction");
+        const auto* saturation = value_of<double>(body, "saturation");
+        if (suction != nullptr && saturation != nullptr && *suction > 0.0 && *saturation == 0.0)
+            diagnostics.error(
+                body.place_of("suction"),
+                fmt::format("body '{}' has a suction but a degree of saturation of 0: without water there "
+                            "is no suction",
+                            body.name),
+                "give 'saturation' > 0, or leave both out for a dry body");
+    }
+}
+
+void check_contacts(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    const std::vector<std::string> bodies = names_of(root.all("body"));
+    for (const CheckedTable& contact : root.all("contact")) {
+        const auto* between = value_of<std::vector<std::string>>(contact, "between");
+        if (between == nullptr)
+            continue;
+        if (between->empty() || between->size() > 2)
+            diagnostics.error(contact.place_of("between"),
+                              fmt::format("'between' must name one or two bodies, not {}", between->size()),
+                              "one body meets the surface of the law; two bodies, or one named twice, meet each other");
+        for (std::size_t i = 0; i < between->size(); ++i)
+            if (!contains(bodies, (*between)[i]))
+                diagnostics.error(contact.members.at("between")[i], fmt::format("there is no [body.{}]", (*between)[i]),
+                                  naming_hint((*between)[i], bodies, "bodies of the case"));
+    }
+}
+
+void check_stages(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    const auto* gravity = value_of<std::vector<double>>(root, "gravity");
+    const bool weightless =
+        gravity != nullptr && std::all_of(gravity->begin(), gravity->end(), [](double g) { return g == 0.0; });
+    std::set<std::string> names;
+    for (const CheckedTable& stage : root.all("stage")) {
+        const auto* name = value_of<std::string>(stage, "name");
+        if (name != nullptr && name->empty())
+            diagnostics.error(stage.place_of("name"), "a stage needs a name that is not empty");
+        else if (name != nullptr && !names.insert(*name).second)
+            diagnostics.error(stage.place_of("name"), fmt::format("a stage '{}' came before", *name),
+                              "names of stages must differ: results and overrides use them");
+        const auto* type = value_of<std::string>(stage, "type");
+        if (weightless && type != nullptr && *type == "quasi_static")
+            diagnostics.error(stage.place_of("type"),
+                              "a quasi_static stage needs gravity: its residual is relative to it",
+                              "give 'gravity', or leave the stage out");
+    }
+}
+
+void check_initial_stresses(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    const auto* gravity = value_of<std::vector<double>>(root, "gravity");
+    if (gravity == nullptr || std::any_of(gravity->begin(), gravity->end(), [](double g) { return g != 0.0; }))
+        return;
+    for (const CheckedTable& body : root.all("body"))
+        for (const CheckedTable& stress : body.all("initial_stress"))
+            if (const auto* type = value_of<std::string>(stress, "type"); type != nullptr && *type == "geostatic")
+                diagnostics.error(stress.place_of("type"), "a geostatic initial stress needs gravity",
+                                  "give 'gravity', or type = \"zero\"");
+}
+
+void check_outputs(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    for (const CheckedTable& output : root.all("output"))
+        if (!output.places.contains("every") && !output.places.contains("times"))
+            diagnostics.error(output.place, "an [[output]] needs 'every' or 'times'", "every = \"20 ms\"");
+}
+
+void check_horizon(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    for (const CheckedTable& discretization : root.all("discretization")) {
+        const auto* horizon = value_of<double>(discretization, "horizon");
+        if (horizon == nullptr)
+            continue;
+        // Squared distances on a cubic lattice are whole numbers.
+        const double squared = *horizon * *horizon;
+        if (std::abs(squared - std::round(squared)) < 1e-9)
+            diagnostics.warning(
+                discretization.place_of("horizon"),
+                fmt::format("at horizon = {:g} neighbours of a cubic lattice lie exactly on the horizon "
+                            "and come and go with round-off; 3.015 is safe",
+                            *horizon));
+    }
+}
+
+std::optional<std::string> refusal(const PluginRegistry& registry, PluginKind kind, const std::string& name,
+                                   const Parameters& parameters)
+{
+    try {
+        switch (kind) {
+        case PluginKind::geometry:
+            registry.make_geometry(name, parameters);
+            break;
+        case PluginKind::material:
+            registry.make_material(name, parameters);
+            break;
+        case PluginKind::contact:
+            registry.make_contact(name, parameters);
+            break;
+        case PluginKind::retention:
+            registry.make_retention(name, parameters);
+            break;
+        case PluginKind::output:
+            registry.make_output(name, parameters);
+            break;
+        }
+    } catch (const std::exception& fault) {
+        return fault.what();
+    }
+    return std::nullopt;
+}
+
+void try_plugins_of(const std::vector<CheckedTable>& tables, const TableRules& rules, const PluginRegistry& registry,
+                    Diagnostics& diagnostics)
+{
+    for (const CheckedTable& table : tables) {
+        if (rules.plugin) {
+            // A copy: what the trial asks for does not count as consumed.
+            const Parameters trial = table.plugin;
+            const std::string& name = std::get<std::string>(table.own.values().at(rules.selector));
+            if (const std::optional<std::string> reason = refusal(registry, *rules.plugin, name, trial))
+                diagnostics.error(table.place, *reason,
+                                  fmt::format("{} '{}' refuses its parameters", kind_name(*rules.plugin), name));
+        }
+        for (const NestedRules& nested : table.nested)
+            try_plugins_of(table.all(nested.name), nested.rules, registry, diagnostics);
+    }
+}
+
+} // namespace
+
+void check_together(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    check_materials_of_bodies(root, diagnostics);
+    check_water(root, diagnostics);
+    check_contacts(root, diagnostics);
+    check_stages(root, diagnostics);
+    check_initial_stresses(root, diagnostics);
+    check_outputs(root, diagnostics);
+    check_horizon(root, diagnostics);
+}
+
+void try_plugins(const CheckedTable& root, const PluginRegistry& registry, Diagnostics& diagnostics)
+{
+    for (const NestedRules& nested : root.nested)
+        try_plugins_of(root.all(nested.name), nested.rules, registry, diagnostics);
+}
+
+} // namespace periporo

@@ -1,0 +1,131 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A case file after reading and checking: plain values in SI, nothing left to doubt.
+#pragma once
+
+#include "periporo/parameters.hpp"
+#include "periporo/tensor.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace periporo {
+
+/// A plugin asked for by name, with its checked parameters.
+struct PluginChoice {
+    std::string name;
+    Parameters parameters;
+};
+
+struct DiscretizationDescription {
+    double spacing = 0.0;                ///< dx [m]
+    double horizon_ratio = 3.015;        ///< delta/dx [-]
+    std::string refresh = "when_needed"; ///< or "every_step"
+    double skin_ratio = 0.1;             ///< relative displacement over dx after which families are found anew [-]
+};
+
+struct OperatorDescription {
+    std::string force_state = "energy_conjugate";
+    std::string influence = "constant";
+};
+
+struct TimeDescription {
+    double safety = 0.9;        ///< on the stable step [-]
+    std::optional<double> step; ///< a fixed step instead of the computed one [s]
+};
+
+struct MaterialDescription {
+    std::string name;
+    PluginChoice model;
+    double grain_density = 0.0; ///< rho_s [kg/m3]
+    double porosity = 0.0;      ///< phi0 [-]
+};
+
+struct InitialStressDescription {
+    std::string type = "zero";            ///< or "geostatic"
+    double lateral_coefficient = 0.0;     ///< K0 [-]
+    double overconsolidation_ratio = 1.0; ///< OCR [-]
+};
+
+struct BodyDescription {
+    std::string name;
+    PluginChoice geometry;
+    std::string material;
+    double suction = 0.0;    ///< s >= 0 [Pa]
+    double saturation = 0.0; ///< S_r [-]; 0 with s = 0 is "dry"
+    Vector3 velocity = Vector3::Zero();
+    InitialStressDescription initial_stress;
+};
+
+/// `PlaneDescription::axis` of a circular cylinder about the z axis, "r = 100 mm".
+inline constexpr int cylinder_axis = 3;
+
+/// A coordinate plane "x = 100 mm", or, as a roller, a cylinder "r = 100 mm".
+struct PlaneDescription {
+    int axis = 0;        ///< 0 x, 1 y, 2 z, or cylinder_axis
+    double offset = 0.0; ///< position or radius [m]
+};
+
+struct BoundaryDescription {
+    std::string type;       ///< "symmetry" or "periodic"
+    PlaneDescription plane; ///< of a symmetry; of the lower side of a periodic pair
+    double period = 0.0;    ///< distance between the sides of a periodic pair [m]
+};
+
+struct ContactDescription {
+    PluginChoice law;
+    std::vector<std::string> between; ///< one body (against the law's own surface, or its free grains) or two bodies
+};
+
+struct StageDescription {
+    std::string name;
+    std::string type;                      ///< "quasi_static" or "dynamic"
+    std::vector<PlaneDescription> rollers; ///< frictionless walls during this stage: planes are symmetry planes, a
+                                           ///< cylinder holds the radial velocity of the points beside it
+    double residual = 1e-3;                ///< quasi_static: |internal + external force|/|gravity| to reach [-]
+    double damping = 0.8;                  ///< quasi_static: Cundall's local damping coefficient [-]
+    std::int64_t maximum_steps = 20000;    ///< quasi_static
+    std::string response = "elastic";      ///< quasi_static: "elastic" or "full"
+    double duration = 0.0;                 ///< dynamic [s]
+    std::optional<double> rest_speed;      ///< dynamic: ends early when sqrt(2 E_kin/m) falls below it [m/s]
+};
+
+struct OutputDescription {
+    PluginChoice writer;
+    double every = 0.0;        ///< interval of snapshots in dynamic stages [s]
+    std::vector<double> times; ///< further times [s]
+};
+
+/// A published law the outcome is held against (data/laws of the tools), e.g. "axisymmetric_column".
+struct ComparisonDescription {
+    std::string law;
+    double radius = 0.0; ///< r0, or half-width d0 [m]
+    double height = 0.0; ///< h0 [m]
+};
+
+struct CaseDescription {
+    std::filesystem::path file;
+    std::string title;
+    Vector3 gravity{0.0, 0.0, -9.81};
+    DiscretizationDescription discretization;
+    OperatorDescription operators;
+    TimeDescription time;
+    std::vector<MaterialDescription> materials;
+    std::vector<BodyDescription> bodies;
+    std::vector<BoundaryDescription> boundaries;
+    std::vector<ContactDescription> contacts;
+    std::vector<StageDescription> stages;
+    std::vector<OutputDescription> outputs;
+    std::optional<ComparisonDescription> comparison;
+    double checkpoint_every = 60.0; ///< wall-clock seconds between checkpoints [s]
+    double history_every = 1e-3;    ///< simulated time between history rows [s]
+    std::vector<std::filesystem::path> plugin_paths;
+    std::string resolved; ///< the whole case as TOML, reproducing the run by itself
+    std::vector<std::string> warnings;
+};
+
+} // namespace periporo

@@ -1,0 +1,230 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The parameter records of every section of a case file.
+#include "case/schema.hpp"
+
+namespace periporo {
+namespace {
+
+TableRules discretization_rules()
+{
+    return {{Parameter::real("spacing", dimension::length, "Distance dx between material points").above(0.0),
+             Parameter::real("horizon", dimension::none, "Horizon delta in spacings").above(1.0).by_default(3.015),
+             Parameter::text("refresh", "When families are found anew")
+                 .one_of({"when_needed", "every_step"})
+                 .by_default("when_needed"),
+             Parameter::real("skin", dimension::none,
+                             "Relative displacement in spacings after which families are found anew")
+                 .above(0.0)
+                 .at_most(1.0)
+                 .by_default(0.1)}};
+}
+
+TableRules operator_rules()
+{
+    return {{Parameter::text("force_state", "Force state of the periporomechanics operator")
+                 .one_of({"energy_conjugate", "volume_weighted", "bond_projection"})
+                 .by_default("energy_conjugate"),
+             Parameter::text("influence", "Influence function over the length of a bond")
+                 .one_of({"constant", "linear", "gaussian"})
+                 .by_default("constant")}};
+}
+
+TableRules time_rules()
+{
+    return {{Parameter::real("safety", dimension::none, "Factor on the stable time step")
+                 .above(0.0)
+                 .at_most(1.0)
+                 .by_default(0.9),
+             Parameter::real("step", dimension::time, "Fixed time step instead of the computed one")
+                 .above(0.0)
+                 .optional()}};
+}
+
+TableRules material_rules()
+{
+    TableRules rules{{Parameter::text("model", "Material plugin"),
+                      Parameter::real("grain_density", dimension::density, "Density rho_s of the grains").above(0.0),
+                      Parameter::real("porosity", dimension::none, "Initial porosity phi0").at_least(0.0).below(1.0)}};
+    rules.selector = "model";
+    rules.plugin = PluginKind::material;
+    return rules;
+}
+
+TableRules geometry_rules()
+{
+    TableRules rules{{Parameter::text("generator", "Geometry plugin")}};
+    rules.selector = "generator";
+    rules.plugin = PluginKind::geometry;
+    return rules;
+}
+
+TableRules initial_stress_rules()
+{
+    TableRules rules{
+        {Parameter::text("type", "Effective stress at the start").one_of({"zero", "geostatic"}).by_default("zero")}};
+    rules.selector = "type";
+    rules.variants = {
+        {"zero", {}},
+        {"geostatic",
+         {{Parameter::real("K0", dimension::none, "Coefficient of earth pressure at rest").at_least(0.0),
+           Parameter::real("overconsolidation_ratio", dimension::none, "Overconsolidation ratio OCR")
+               .at_least(1.0)
+               .by_default(1.0)}}},
+    };
+    return rules;
+}
+
+TableRules body_rules()
+{
+    TableRules rules{
+        {Parameter::text("material", "Name of a [material.NAME]"),
+         Parameter::real("suction", dimension::pressure, "Suction s").at_least(0.0).by_default(0.0),
+         Parameter::real("saturation", dimension::none, "Degree of saturation S_r; 0 for a dry body")
+             .at_least(0.0)
+             .at_most(1.0)
+             .by_default(0.0),
+         Parameter::real_list("velocity", dimension::velocity, 3, "Initial velocity").by_default({0.0, 0.0, 0.0})}};
+    rules.nested = {
+        {"geometry", TableShape::single, TablePresence::required, "The region that the body fills", geometry_rules()},
+        {"initial_stress", TableShape::single, TablePresence::defaulted, "Effective stress at the start",
+         initial_stress_rules()}};
+    return rules;
+}
+
+TableRules boundary_rules()
+{
+    TableRules rules{{Parameter::text("type", "Kind of boundary").one_of({"symmetry", "periodic"}),
+                      Parameter::text("plane", "Symmetry plane, or the lower side of a periodic pair, \"x = 0 mm\"")}};
+    rules.selector = "type";
+    rules.variants = {
+        {"symmetry", {}},
+        {"periodic",
+         {{Parameter::real("period", dimension::length, "Distance between the sides of a periodic pair").above(0.0)}}},
+    };
+    rules.planes = {"plane"};
+    return rules;
+}
+
+TableRules contact_rules()
+{
+    TableRules rules{{Parameter::text("law", "Contact plugin"),
+                      Parameter::text_list("between", 0, "One body, against the surface of the law, or two bodies")}};
+    rules.selector = "law";
+    rules.plugin = PluginKind::contact;
+    return rules;
+}
+
+TableRules quasi_static_rules()
+{
+    TableRules rules{
+        {Parameter::text_list("rollers", 0, "Frictionless walls during the stage, [\"x = 100 mm\"] or [\"r = 100 mm\"]")
+             .optional(),
+         Parameter::real("damping", dimension::none, "Local damping coefficient").above(0.0).below(1.0).by_default(0.8),
+         Parameter::integer("maximum_steps", "Steps after which the stage has failed").at_least(1).by_default(20000),
+         Parameter::text("response", "Material response while settling")
+             .one_of({"elastic", "full"})
+             .by_default("elastic")}};
+    rules.planes = {"rollers"};
+    rules.nested = {
+        {"until",
+         TableShape::single,
+         TablePresence::defaulted,
+         "When the stage has settled",
+         {{Parameter::real("residual", dimension::none, "Norm of internal plus external force over that of gravity")
+               .above(0.0)
+               .below(1.0)
+               .by_default(1e-3)}}}};
+    return rules;
+}
+
+TableRules dynamic_rules()
+{
+    TableRules rules{{Parameter::real("duration", dimension::time, "Simulated time of the stage").above(0.0)}};
+    rules.nested = {
+        {"until",
+         TableShape::single,
+         TablePresence::defaulted,
+         "What ends the stage before its duration",
+         {{Parameter::real("rest_speed", dimension::velocity, "Speed sqrt(2 E_kin/m) below which all is at rest")
+               .above(0.0)
+               .optional()}}}};
+    return rules;
+}
+
+TableRules stage_rules()
+{
+    TableRules rules{{Parameter::text("name", "Name of the stage, used once"),
+                      Parameter::text("type", "Kind of stage").one_of({"quasi_static", "dynamic"})}};
+    rules.selector = "type";
+    rules.variants = {{"quasi_static", quasi_static_rules()}, {"dynamic", dynamic_rules()}};
+    return rules;
+}
+
+TableRules output_rules()
+{
+    TableRules rules{
+        {Parameter::text("writer", "Output plugin"),
+         Parameter::real("every", dimension::time, "Simulated time between snapshots").above(0.0).optional(),
+         Parameter::real_list("times", dimension::time, 0, "Further times of snapshots").at_least(0.0).optional()}};
+    rules.selector = "writer";
+    rules.plugin = PluginKind::output;
+    return rules;
+}
+
+TableRules comparison_rules()
+{
+    return {{Parameter::text("law", "Published law that the outcome is held against"),
+             Parameter::real("radius", dimension::length, "Initial radius r0, or half-width d0").above(0.0),
+             Parameter::real("height", dimension::length, "Initial height h0").above(0.0)}};
+}
+
+TableRules plugins_rules()
+{
+    return {{Parameter::text_list("paths", 0, "Folders of plugin libraries, relative to this file").optional()}};
+}
+
+TableRules run_rules()
+{
+    return {{Parameter::real("checkpoint_every", dimension::time, "Wall-clock time between checkpoints")
+                 .above(0.0)
+                 .by_default(60.0),
+             Parameter::real("history_every", dimension::time, "Simulated time between rows of the history")
+                 .above(0.0)
+                 .by_default(1e-3)}};
+}
+
+TableRules root_rules()
+{
+    using enum TableShape;
+    using enum TablePresence;
+    TableRules rules{{Parameter::text("title", "One line that says what is simulated"),
+                      Parameter::real_list("gravity", dimension::acceleration, 3, "Acceleration of gravity")
+                          .by_default({0.0, 0.0, -9.81})}};
+    rules.nested = {
+        {"plugins", single, defaulted, "Where further plugins are", plugins_rules()},
+        {"discretization", single, required, "Material points and their families", discretization_rules()},
+        {"operator", single, defaulted, "The periporomechanics operator", operator_rules()},
+        {"time", single, defaulted, "The time step", time_rules()},
+        {"material", named, required, "A material", material_rules()},
+        {"body", named, required, "A body of one material", body_rules()},
+        {"boundary", list, optional, "A symmetry plane or a periodic pair", boundary_rules()},
+        {"contact", list, optional, "A contact law between bodies, or a body and a surface", contact_rules()},
+        {"stage", list, required, "A stage of the run, in order", stage_rules()},
+        {"output", list, optional, "A writer of results", output_rules()},
+        {"comparison", single, optional, "A published law to compare with", comparison_rules()},
+        {"run", single, defaulted, "Bookkeeping of the run", run_rules()},
+    };
+    return rules;
+}
+
+} // namespace
+
+const TableRules& case_rules()
+{
+    static const TableRules rules = root_rules();
+    return rules;
+}
+
+} // namespace periporo

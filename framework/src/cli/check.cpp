@@ -1,0 +1,30 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// `periporo check CASE`: every error of a case at once.
+#include "cli/command.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+
+namespace periporo::cli {
+
+void add_check_command(CLI::App& program, Action& action)
+{
+    CLI::App* command = program.add_subcommand("check", "Report every error of a case; run nothing");
+    const auto arguments = std::make_shared<CaseArguments>();
+    add_case_arguments(*command, *arguments);
+    command->footer("Example:\n  periporo check my_case.toml --set discretization.spacing=\"5 mm\"\n\n"
+                    "Exit status 0 when the case is sound, 2 when it is not.");
+    command->callback([arguments, &action] {
+        action = [arguments] {
+            PluginRegistry registry;
+            read_case_loudly(*arguments, registry);
+            fmt::print("{}: no errors\n", arguments->file.string());
+            return ExitStatus::done;
+        };
+    });
+}
+
+} // namespace periporo::cli

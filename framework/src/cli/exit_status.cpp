@@ -1,0 +1,46 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Exceptions to messages and exit statuses.
+#include "cli/exit_status.hpp"
+
+#include "case/reader.hpp"
+#include "plugins/registry.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace periporo::cli {
+namespace {
+
+ExitStatus complain(ExitStatus status, const char* message)
+{
+    fmt::print(stderr, "periporo: {}\n", message);
+    return status;
+}
+
+} // namespace
+
+ExitStatus report_faults(const std::function<ExitStatus()>& action)
+{
+    try {
+        return action();
+    } catch (const CaseError& error) {
+        const std::size_t count = error.diagnostics().size();
+        fmt::print(stderr, "{}{} error{}; nothing was run\n", error.what(), count, count == 1 ? "" : "s");
+        return ExitStatus::wrong_input;
+    } catch (const PluginError& error) {
+        return complain(ExitStatus::wrong_input, error.what());
+    } catch (const UsageError& error) {
+        return complain(ExitStatus::wrong_input, error.what());
+    } catch (const std::bad_alloc&) {
+        return complain(ExitStatus::failed, "out of memory; a larger spacing needs less");
+    } catch (const std::exception& error) {
+        return complain(ExitStatus::failed, error.what());
+    }
+}
+
+} // namespace periporo::cli

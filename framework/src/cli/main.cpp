@@ -1,0 +1,49 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The command-line program.
+#include "cli/command.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+
+namespace {
+
+using periporo::cli::Action;
+using periporo::cli::ExitStatus;
+
+int run_program(int count, char** arguments)
+{
+    CLI::App program("Large-deformation simulation of unsaturated soil by stabilized periporomechanics", "periporo");
+    program.set_version_flag("--version", "periporo " PERIPORO_VERSION, "Print the version and exit");
+    program.require_subcommand(1);
+    program.footer("Example:\n  periporo run cases/column_collapse/quickstart.toml\n\n"
+                   "Exit status: 0 done, 1 failed while running, 2 wrong input, 130 interrupted.");
+    Action action;
+    periporo::cli::add_run_command(program, action);
+    periporo::cli::add_check_command(program, action);
+    periporo::cli::add_explain_command(program, action);
+    periporo::cli::add_inspect_command(program, action);
+    try {
+        program.parse(count, arguments);
+    } catch (const CLI::Success& request) { // --help and --version
+        return program.exit(request);
+    } catch (const CLI::ParseError& error) {
+        program.exit(error);
+        return static_cast<int>(ExitStatus::wrong_input);
+    }
+    return static_cast<int>(periporo::cli::report_faults(action));
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+    try {
+        return run_program(count, arguments);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "periporo: %s\n", error.what());
+        return static_cast<int>(ExitStatus::failed);
+    }
+}

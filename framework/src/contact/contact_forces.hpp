@@ -1,0 +1,98 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Contact of points with rigid surfaces, with points of other bodies, and of free grains with everything.
+#pragma once
+
+#include "model/model.hpp"
+#include "periporo/contact.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace periporo {
+
+/// One contact law at work between bodies. With a surface of its own the law holds every named body; without one it
+/// acts between two different bodies, or, where `bodies` names one body twice, between its free grains and all its
+/// points: bonded points of one body never need contact, their cut-off lies inside the horizon.
+struct ContactAssignment {
+    std::shared_ptr<const Contact> law;
+    std::vector<std::uint32_t> bodies;
+};
+
+/// Finds contacts and adds their forces. Each point sums its own contacts, both directions of a pair are evaluated with
+/// the same numbers, so that forces are opposite to the last bit and independent of threads.
+class ContactForces {
+public:
+    explicit ContactForces(std::vector<ContactAssignment> assignments) : assignments_(std::move(assignments)) {}
+
+    /// Pairs of different bodies that may touch before the next refresh. To be called after every refresh.
+    /// @param slack how much closer a pair may come until then [m]
+    void find_candidates(const Model& model, double slack);
+
+    /// What the laws are told of the approach of points: as it is, or, while a body settles under artificial damping,
+    /// nothing; that damping would multiply the dashpots of a law beyond stability.
+    enum class Approach { real, none };
+
+    /// Adds normal forces of all laws and friction between points to `force`. Records must be current, with mid-step
+    /// velocities.
+    void add_reactions(const Model& model, double time_step, Approach approach, std::vector<Vector3>& force);
+
+    /// Adds Coulomb friction on rigid surfaces, last of all forces: it takes from the tangential force and momentum of
+    /// the point what stops its slip within the step, but not more than mu F_n.
+    void add_surface_friction(const Model& model, double time_step, std::vector<Vector3>& force);
+
+    /// Stored in all contacts at the last add_reactions [J].
+    double energy() const { return energy_; }
+    /// Part of the normal force on each point that does not come from stored energy [N].
+    const std::vector<Vector3>& damping() const { return damping_; }
+    /// Friction force on each point at the last step [N].
+    const std::vector<Vector3>& friction() const { return friction_; }
+
+    /// Reach of each free grain; negative for a bonded point. Empty before the first step.
+    const std::vector<double>& grain_reach() const { return grain_reach_; }
+    void set_grain_reach(std::vector<double> reach) { grain_reach_ = std::move(reach); }
+
+    /// A bound of omega^2 from contact alone, for the stable step [1/s2]: every law at full overlap with six partners.
+    double frequency_squared(const Model& model) const;
+
+private:
+    struct SurfaceContact {
+        std::uint32_t point;
+        double friction;
+        double force;
+        Vector3 normal;
+    };
+    struct PairForce;
+
+    void add_surface(const Model& model, const ContactAssignment& assignment, std::vector<Vector3>& force);
+    void add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
+    void add_free_grains(const Model& model, const ContactAssignment& assignment, double time_step,
+                         std::vector<Vector3>& force);
+    /// Sums the contacts of a point with `neighbours`, no farther apart than reach(neighbour's point).
+    template <class Neighbours, class Reach>
+    void gather_pairs(const Model& model, const Contact& law, std::uint32_t point, const Neighbours& neighbours,
+                      const Reach& reach, double time_step, std::vector<Vector3>& force);
+    void update_grain_reach(const Model& model, const ContactAssignment& assignment);
+
+    std::vector<ContactAssignment> assignments_;
+    /// For each assignment, neighbours (points and images) of each point in compressed rows.
+    struct Candidates {
+        std::vector<std::size_t> first;
+        std::vector<std::uint32_t> neighbours;
+    };
+    std::vector<Candidates> candidates_;
+    std::vector<Vector3> friction_;
+    std::vector<SurfaceContact> surface_contacts_;
+    std::vector<double> point_energy_;
+    std::vector<Vector3> damping_;
+    /// A grain that comes loose among others takes the room it finds: its reach starts at the distance of its nearest
+    /// neighbour and grows, up to the cut-off, as it moves away. With the whole cut-off at once the overlap it is born
+    /// with would be energy from nowhere: in a trial 15 per cent of the energy of the collapse from a single grain.
+    std::vector<double> grain_reach_;
+    double energy_ = 0.0;
+    double approach_factor_ = 1.0; ///< 0 for Approach::none
+};
+
+} // namespace periporo

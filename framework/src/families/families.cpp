@@ -1,0 +1,194 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "families/families.hpp"
+
+#include "families/cell_list.hpp"
+#include "periporo/pack.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace periporo {
+namespace {
+
+constexpr int chunk = 64;
+
+/// |x_i - g x_p|^2, evaluated so that (i, g p) and (p, g^-1 i) give the same bits: membership of a family is mutual.
+double mutual_distance_squared(const std::vector<Vector3>& x, std::uint32_t i, std::uint32_t p, std::uint32_t isometry,
+                               const Vector3& image, const IsometryTable& isometries)
+{
+    if (isometry == 0)
+        return (image - x[i]).squaredNorm();
+    const std::uint32_t opposite = isometries.inverse(isometry);
+    const bool canonical = i != p ? i < p : isometry <= opposite;
+    return canonical ? (image - x[i]).squaredNorm() : (isometries[opposite].point(x[i]) - x[p]).squaredNorm();
+}
+
+} // namespace
+
+Families Families::find(const Points& points, IsometryTable& isometries, double horizon)
+{
+    Families families;
+    families.images_ = find_images(points.position, isometries, horizon);
+    families.find_neighbours(points, isometries, horizon);
+    families.find_reverse(isometries);
+    families.find_membership(points, isometries, horizon);
+    return families;
+}
+
+void Families::find_neighbours(const Points& points, const IsometryTable& isometries, double horizon)
+{
+    const std::size_t n = points.size();
+    std::vector<Vector3> positions(points.position);
+    positions.reserve(n + images_.size());
+    for (const Image& image : images_)
+        positions.push_back(isometries[image.isometry].point(points.position[image.parent]));
+    const CellList cells(positions, horizon);
+
+    count_.assign(n, 0);
+    const double reach_squared = horizon * horizon;
+    const auto parent_of = [&](std::uint32_t c) { return c < n ? c : images_[c - n].parent; };
+    const auto isometry_of = [&](std::uint32_t c) { return c < n ? 0 : images_[c - n].isometry; };
+    const auto collect = [&](std::uint32_t i, std::vector<std::uint32_t>& family) {
+        family.clear();
+        cells.visit_near(positions[i], [&](std::uint32_t c) {
+            const std::uint32_t p = parent_of(c);
+            if (c == i || points.body[p] != points.body[i])
+                return;
+            if (mutual_distance_squared(points.position, i, p, isometry_of(c), positions[c], isometries) <=
+                reach_squared)
+                family.push_back(c);
+        });
+    };
+    // Families of a block of points go to a buffer of the block; the buffers are joined in order.
+    const std::size_t blocks = (n + chunk - 1) / chunk;
+    std::vector<std::vector<std::uint32_t>> found(blocks);
+#pragma omp parallel
+    {
+        std::vector<std::uint32_t> family;
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < blocks; ++block)
+            for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
+                collect(static_cast<std::uint32_t>(i), family);
+                std::sort(family.begin(), family.end(),
+                          [this](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+                count_[i] = static_cast<std::uint32_t>(family.size());
+                found[block].insert(found[block].end(), family.begin(), family.end());
+            }
+    }
+    if (const auto crowded =
+            std::find_if(count_.begin(), count_.end(), [](std::uint32_t c) { return c > largest_family; });
+        crowded != count_.end())
+        throw std::runtime_error(
+            fmt::format("point {} has {} points within its horizon, more than {}: points lie on top of "
+                        "each other",
+                        points.id[static_cast<std::size_t>(crowded - count_.begin())], *crowded, largest_family));
+    first_pack_.assign(n + 1, 0);
+    first_byte_.assign(n, 0);
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t packs = (count_[i] + pack_width - 1) / pack_width;
+        first_pack_[i + 1] = first_pack_[i] + packs;
+        first_byte_[i] = bytes;
+        bytes += count_[i] * packs;
+    }
+    membership_.resize(bytes);
+    neighbours_.resize(first_pack_[n] * pack_width);
+    reverse_.resize(first_pack_[n] * pack_width);
+#pragma omp parallel for schedule(static)
+    for (std::size_t block = 0; block < blocks; ++block) {
+        const std::uint32_t* next = found[block].data();
+        for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
+            std::uint32_t* family = neighbours_.data() + first_pack_[i] * pack_width;
+            std::uint32_t* end = neighbours_.data() + first_pack_[i + 1] * pack_width;
+            std::fill(std::copy(next, next + count_[i], family), end, static_cast<std::uint32_t>(i));
+            next += count_[i];
+        }
+    }
+}
+
+void Families::find_reverse(const IsometryTable& isometries)
+{
+    bool mutual = true;
+#pragma omp parallel for schedule(static) reduction(&& : mutual)
+    for (std::size_t i = 0; i < count_.size(); ++i) {
+        const std::size_t first = first_pack_[i] * pack_width;
+        for (std::size_t b = first; b < first_pack_[i + 1] * pack_width; ++b) {
+            if (b >= first + count_[i]) {
+                reverse_[b] = static_cast<std::uint32_t>(b);
+                continue;
+            }
+            const std::uint32_t p = parent(neighbours_[b]);
+            const std::uint64_t wanted =
+                (static_cast<std::uint64_t>(isometries.inverse(isometry(neighbours_[b]))) << 32) | i;
+            const std::uint32_t* begin = neighbours_.data() + first_pack_[p] * pack_width;
+            const std::uint32_t* end = begin + count_[p];
+            const std::uint32_t* at =
+                std::lower_bound(begin, end, wanted, [this](std::uint32_t c, std::uint64_t k) { return key(c) < k; });
+            if (at == end || key(*at) != wanted)
+                mutual = false;
+            else
+                reverse_[b] = static_cast<std::uint32_t>(at - neighbours_.data());
+        }
+    }
+    if (!mutual)
+        throw std::logic_error("families are not mutual: a bond has no bond in the opposite direction");
+}
+
+void Families::find_membership(const Points& points, const IsometryTable& isometries, double horizon)
+{
+    const Pack reach_squared = horizon * horizon;
+#pragma omp parallel
+    {
+        AlignedVector<double> zeta[3];
+#pragma omp for schedule(dynamic, chunk)
+        for (std::size_t i = 0; i < count_.size(); ++i) {
+            const std::size_t packs = first_pack_[i + 1] - first_pack_[i];
+            const std::uint32_t* family = neighbours_.data() + first_pack_[i] * pack_width;
+            for (auto& component : zeta)
+                component.resize(packs * pack_width);
+            for (std::size_t b = 0; b < packs * pack_width; ++b) {
+                // Lanes without a bond stand far away from everything.
+                Vector3 x = Vector3::Constant(1e3 * horizon * static_cast<double>(b + 2));
+                if (b < count_[i]) {
+                    const std::uint32_t c = family[b];
+                    x = (c < count_.size() ? points.position[c]
+                                           : isometries[isometry(c)].point(points.position[parent(c)])) -
+                        points.position[i];
+                }
+                for (int c = 0; c < 3; ++c)
+                    zeta[c][b] = x[c];
+            }
+            std::uint8_t* row = membership_.data() + first_byte_[i];
+            for (std::size_t k = 0; k < count_[i]; ++k, row += packs)
+                for (std::size_t p = 0; p < packs; ++p) {
+                    Pack squared = 0.0;
+                    for (const auto& component : zeta) {
+                        const Pack d =
+                            Pack(component.data() + p * pack_width, std::experimental::vector_aligned) - component[k];
+                        squared += d * d;
+                    }
+                    row[p] = lane_bits(squared <= reach_squared);
+                }
+        }
+    }
+}
+
+std::size_t Families::bonds() const
+{
+    std::size_t sum = 0;
+    for (const std::uint32_t count : count_)
+        sum += count;
+    return sum;
+}
+
+std::size_t Families::memory() const
+{
+    return images_.capacity() * sizeof(Image) + count_.capacity() * sizeof(std::uint32_t) +
+           (first_pack_.capacity() + first_byte_.capacity()) * sizeof(std::size_t) +
+           (neighbours_.capacity() + reverse_.capacity()) * sizeof(std::uint32_t) + membership_.capacity();
+}
+
+} // namespace periporo

@@ -1,0 +1,170 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "io/checkpoint.hpp"
+
+#include "io/archive.hpp"
+#include "operator/refresh.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace periporo {
+namespace {
+
+std::span<const double> flat(const std::vector<Vector3>& vectors)
+{
+    static_assert(sizeof(Vector3) == 3 * sizeof(double));
+    return {vectors.empty() ? nullptr : vectors.front().data(), 3 * vectors.size()};
+}
+
+std::vector<Vector3> vectors(const std::vector<double>& values)
+{
+    std::vector<Vector3> result(values.size() / 3);
+    for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+    return result;
+}
+
+std::vector<double> isometry_values(const IsometryTable& table)
+{
+    std::vector<double> values;
+    for (std::uint32_t n = 0; n < table.size(); ++n) {
+        values.insert(values.end(), table[n].rotation.data(), table[n].rotation.data() + 9);
+        values.insert(values.end(), table[n].translation.data(), table[n].translation.data() + 3);
+    }
+    return values;
+}
+
+std::vector<Isometry> isometries(const std::vector<double>& values)
+{
+    std::vector<Isometry> result(values.size() / 12);
+    for (std::size_t n = 0; n < result.size(); ++n) {
+        std::copy_n(values.data() + 12 * n, 9, result[n].rotation.data());
+        std::copy_n(values.data() + 12 * n + 9, 3, result[n].translation.data());
+    }
+    return result;
+}
+
+template <class Vector>
+void copy_checked(const std::vector<typename Vector::value_type>& from, Vector& to, const char* name)
+{
+    if (from.size() != to.size())
+        throw std::runtime_error(
+            fmt::format("the checkpoint holds {} values of {}, this model has {}", from.size(), name, to.size()));
+    std::copy(from.begin(), from.end(), to.begin());
+}
+
+} // namespace
+
+void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case)
+{
+    const Model& model = parts.model;
+    const Points& points = model.points;
+    const RunPosition& at = parts.position;
+    ArchiveWriter archive(file);
+    archive.put("case", resolved_case);
+    archive.put("position", flat(points.position));
+    archive.put("velocity", flat(points.velocity));
+    archive.put("force", flat(points.force));
+    archive.put("volume", std::span<const double>(points.volume));
+    archive.put("jacobian", std::span<const double>(points.jacobian));
+    archive.put("refresh_position", flat(model.refresh_position));
+    archive.put("point_state", std::span<const double>(model.point_state));
+    archive.put("bond_state", std::span<const double>(model.bonds.state.data(), model.bonds.state.size()));
+    archive.put("bond_active", std::span<const std::uint8_t>(model.bonds.active));
+    archive.put("free_grain", std::span<const std::uint8_t>(model.free_grain));
+    archive.put("inactive_bonds", std::span<const std::int64_t>(std::vector<std::int64_t>(model.inactive_bonds.begin(),
+                                                                                          model.inactive_bonds.end())));
+    const std::vector<double> table = isometry_values(model.isometries);
+    archive.put("isometries", std::span<const double>(table));
+    archive.put("grain_reach", std::span<const double>(parts.contact.grain_reach()));
+    archive.put("frequency_mode", flat(parts.frequency.mode()));
+
+    const Dynamics::State& dynamics = parts.dynamics.state();
+    const EnergyLedger& ledger = dynamics.ledger;
+    const std::vector<double> reals{at.time,          at.stage_start,   at.time_step,       at.wall_seconds,
+                                    ledger.kinetic,   ledger.gravity,   ledger.stress_work, ledger.contact,
+                                    ledger.friction,  ledger.collision, ledger.opening,     dynamics.gravity_datum,
+                                    dynamics.residual};
+    archive.put("reals", std::span<const double>(reals));
+    std::vector<std::int64_t> integers{static_cast<std::int64_t>(at.stage),
+                                       static_cast<std::int64_t>(at.stage_step),
+                                       static_cast<std::int64_t>(at.step),
+                                       static_cast<std::int64_t>(at.next_history),
+                                       at.ledger_open ? 1 : 0,
+                                       at.moved ? 1 : 0,
+                                       static_cast<std::int64_t>(dynamics.refreshes)};
+    for (const std::uint64_t next : at.next_output)
+        integers.push_back(static_cast<std::int64_t>(next));
+    archive.put("integers", std::span<const std::int64_t>(integers));
+    archive.put("stage_reports", at.stage_reports);
+    archive.commit();
+}
+
+void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case,
+                     double contact_slack, const std::function<std::vector<Isometry>(std::uint64_t stage)>& generators)
+{
+    const ArchiveReader archive(file);
+    if (archive.text("case") != resolved_case)
+        throw std::runtime_error(fmt::format("{} was written by another case or with other --set values; run the case "
+                                             "that it was started with, or start anew with --overwrite",
+                                             file.string()));
+    Model& model = parts.model;
+    Points& points = model.points;
+    RunPosition& at = parts.position;
+
+    const std::vector<std::int64_t> integers = archive.integers("integers");
+    at.stage = static_cast<std::uint64_t>(integers.at(0));
+    at.stage_step = static_cast<std::uint64_t>(integers.at(1));
+    at.step = static_cast<std::uint64_t>(integers.at(2));
+    at.next_history = static_cast<std::uint64_t>(integers.at(3));
+    at.ledger_open = integers.at(4) != 0;
+    at.moved = integers.at(5) != 0;
+    at.next_output.assign(integers.begin() + 7, integers.end());
+    at.stage_reports = archive.text("stage_reports");
+    const std::vector<double> reals = archive.reals("reals");
+    at.time = reals.at(0);
+    at.stage_start = reals.at(1);
+    at.time_step = reals.at(2);
+    at.wall_seconds = reals.at(3);
+
+    // Families and contact candidates are those of the last refresh, made again from its positions.
+    model.isometries.restore(isometries(archive.reals("isometries")));
+    model.isometries.set_generators(generators(at.stage));
+    copy_checked(vectors(archive.reals("refresh_position")), points.position, "position");
+    copy_checked(archive.reals("volume"), points.volume, "volume");
+    copy_checked(archive.reals("jacobian"), points.jacobian, "J");
+    find_first_families(model);
+    parts.contact.find_candidates(model, contact_slack);
+    copy_checked(archive.reals("bond_state"), model.bonds.state, "bond state");
+    copy_checked(archive.bytes("bond_active"), model.bonds.active, "bond activity");
+    copy_checked(archive.reals("point_state"), model.point_state, "point state");
+    copy_checked(archive.bytes("free_grain"), model.free_grain, "free grains");
+    const std::vector<std::int64_t> inactive = archive.integers("inactive_bonds");
+    std::copy(inactive.begin(), inactive.end(), model.inactive_bonds.begin());
+    copy_checked(vectors(archive.reals("position")), points.position, "position");
+    copy_checked(vectors(archive.reals("velocity")), points.velocity, "velocity");
+    copy_checked(vectors(archive.reals("force")), points.force, "force");
+    model.update_records();
+
+    parts.contact.set_grain_reach(archive.reals("grain_reach"));
+    parts.frequency.set_mode(vectors(archive.reals("frequency_mode")));
+    Dynamics::State dynamics;
+    dynamics.ledger.kinetic = reals.at(4);
+    dynamics.ledger.gravity = reals.at(5);
+    dynamics.ledger.stress_work = reals.at(6);
+    dynamics.ledger.contact = reals.at(7);
+    dynamics.ledger.friction = reals.at(8);
+    dynamics.ledger.collision = reals.at(9);
+    dynamics.ledger.opening = reals.at(10);
+    dynamics.gravity_datum = reals.at(11);
+    dynamics.residual = reals.at(12);
+    dynamics.refreshes = static_cast<std::uint64_t>(integers.at(6));
+    parts.dynamics.restore(dynamics);
+}
+
+} // namespace periporo

@@ -1,0 +1,55 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Everything a run needs to go on as if it had never stopped, to the last bit.
+#pragma once
+
+#include "contact/contact_forces.hpp"
+#include "model/model.hpp"
+#include "time/dynamics.hpp"
+#include "time/stable_step.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace periporo {
+
+/// Where a run stands in its stages.
+struct RunPosition {
+    std::uint64_t stage = 0;
+    std::uint64_t stage_step = 0;           ///< steps done in the stage
+    std::uint64_t step = 0;                 ///< steps done in all stages
+    double time = 0.0;                      ///< since the first dynamic stage began [s]
+    double stage_start = 0.0;               ///< `time` when the stage began [s]
+    double time_step = 0.0;                 ///< [s]
+    std::uint64_t next_history = 0;         ///< index of the next history row
+    std::vector<std::uint64_t> next_output; ///< for each output, index of its next snapshot
+    double wall_seconds = 0.0;              ///< spent so far
+    bool ledger_open = false;
+    bool moved = false;        ///< the stage has seen motion, so that rest can end it
+    std::string stage_reports; ///< JSON of the stages that are done
+};
+
+struct CheckpointParts {
+    Model& model;
+    ContactForces& contact;
+    Dynamics& dynamics;
+    FrequencyEstimate& frequency;
+    RunPosition& position;
+};
+
+/// Writes `file` aside and renames it.
+void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts,
+                      const std::string& resolved_case);
+
+/// Restores a model that was built from the same case; constraints of the stage remain to be set.
+/// @param generators gives the isometries that make the images of a stage
+/// @param contact_slack as for ContactForces::find_candidates [m]
+/// @throws std::runtime_error when the file cannot be read or was written by another case.
+void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case,
+                     double contact_slack, const std::function<std::vector<Isometry>(std::uint64_t stage)>& generators);
+
+} // namespace periporo

@@ -1,0 +1,56 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "model/model.hpp"
+
+#include <algorithm>
+
+namespace periporo {
+
+void Model::allocate()
+{
+    const std::size_t n = size();
+    state_stride = 0;
+    for (const Body& body : bodies)
+        state_stride = std::max(state_stride, body.rows());
+    point_state.assign(n * state_stride, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::vector<StateVariable>& variables = body_of(i).material->state_variables();
+        for (std::size_t s = 0; s < variables.size(); ++s)
+            point_state[i * state_stride + 6 + s] = variables[s].initial;
+    }
+    internal_force.assign(n, Vector3::Zero());
+    volume_rate.assign(n, 0.0);
+    stress_work.assign(n, 0.0);
+    inactive_bonds.assign(n, 0);
+    free_grain.assign(n, 0);
+}
+
+void Model::update_records()
+{
+    const std::size_t n = size();
+    const std::vector<Image>& images = families.images();
+    records.resize(n + images.size());
+    const auto store = [this](std::size_t record, const Vector3& x, const Vector3& v, double volume) {
+        records[record] = {{x.x(), x.y(), x.z()}, volume, {v.x(), v.y(), v.z()}, 0.0};
+    };
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < n; ++i)
+        store(i, points.position[i], points.velocity[i], points.volume[i]);
+#pragma omp parallel for schedule(static)
+    for (std::size_t m = 0; m < images.size(); ++m) {
+        const Isometry& isometry = isometries[images[m].isometry];
+        const std::uint32_t p = images[m].parent;
+        store(n + m, isometry.point(points.position[p]), isometry.direction(points.velocity[p]), points.volume[p]);
+    }
+}
+
+std::size_t Model::memory() const
+{
+    const std::size_t per_point =
+        5 * sizeof(Vector3) + 6 * sizeof(double) + sizeof(std::uint32_t) + sizeof(std::int64_t) + // Points
+        2 * sizeof(Vector3) + 2 * sizeof(double) + sizeof(std::uint32_t) + 1 + state_stride * sizeof(double);
+    return size() * per_point + records.capacity() * sizeof(NeighbourRecord) + families.memory() + bonds.memory();
+}
+
+} // namespace periporo

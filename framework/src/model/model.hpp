@@ -1,0 +1,89 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The state of a simulation: bodies, points, families, and what bonds carry.
+#pragma once
+
+#include "families/families.hpp"
+#include "model/aligned.hpp"
+#include "model/images.hpp"
+#include "model/points.hpp"
+#include "periporo/material.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace periporo {
+
+struct Body {
+    std::string name;
+    std::shared_ptr<const Material> material;
+    double overconsolidation_ratio = 1.0; ///< OCR, for the initial state of the material [-]
+
+    /// Rows of a bond: six of stress, then the state variables.
+    std::size_t rows() const { return 6 + material->state_variables().size(); }
+};
+
+/// What the operator gathers about a neighbour, on one cache line.
+struct alignas(64) NeighbourRecord {
+    double position[3];
+    double volume;
+    double velocity[3];
+    double unused;
+};
+
+/// What bonds carry: stress and internal variables from step to step, the force state within one.
+struct BondData {
+    /// For each point its packs, for each pack `rows` rows of pack_width: effective stress, then state variables.
+    AlignedVector<double> state;
+    std::vector<std::size_t> first; ///< of a point, in `state`
+    /// T of each bond [N/m6]: for each pack three rows.
+    AlignedVector<double> force_state;
+    std::vector<std::uint8_t> active; ///< for each pack one bit a bond: does it carry stress?
+
+    std::size_t memory() const
+    {
+        return (state.capacity() + force_state.capacity()) * sizeof(double) + first.capacity() * sizeof(std::size_t) +
+               active.capacity();
+    }
+};
+
+struct Model {
+    double spacing = 0.0; ///< dx [m]
+    double horizon = 0.0; ///< delta [m]
+    Vector3 gravity = Vector3::Zero();
+    std::vector<Body> bodies;
+    Points points;
+    IsometryTable isometries;
+    Families families;
+    BondData bonds;
+
+    /// Mean stress and state variables of each point, `state_stride` doubles a point, from the last refresh; what a
+    /// free grain remembers.
+    std::vector<double> point_state;
+    std::size_t state_stride = 0;
+
+    std::vector<Vector3> refresh_position;  ///< positions that the families were found from
+    AlignedVector<NeighbourRecord> records; ///< of points, then images
+
+    // Outcome of the last evaluation of the operator, point by point.
+    std::vector<Vector3> internal_force; ///< [N]
+    std::vector<double> volume_rate;     ///< tr L dt [-]
+    std::vector<double> stress_work;     ///< of the step: V sum_b w_b sigma_b : D_b dt [J]
+    std::vector<std::uint32_t> inactive_bonds;
+    std::vector<std::uint8_t> free_grain; ///< 1: no active bond
+
+    std::size_t size() const { return points.size(); }
+    const Body& body_of(std::size_t point) const { return bodies[points.body[point]]; }
+    std::size_t rows(std::size_t point) const { return body_of(point).rows(); }
+
+    /// Sets the sizes of everything that has one value a point.
+    void allocate();
+    /// Copies positions, velocities and volumes of points and images to the records.
+    void update_records();
+    /// Bytes held in points, families and bonds.
+    std::size_t memory() const;
+};
+
+} // namespace periporo

@@ -1,0 +1,29 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "operator/force_state.hpp"
+
+#include "operator/bond_projection.hpp"
+#include "operator/sub_horizon.hpp"
+
+namespace periporo {
+
+const std::vector<std::string>& force_state_names()
+{
+    static const std::vector<std::string> names{"energy_conjugate", "volume_weighted", "bond_projection"};
+    return names;
+}
+
+std::unique_ptr<ForceState> make_force_state(const std::string& name, Influence influence)
+{
+    using Weighting = SubHorizonForceState::Weighting;
+    if (name == "energy_conjugate")
+        return std::make_unique<SubHorizonForceState>(influence, Weighting::energy_conjugate);
+    if (name == "volume_weighted")
+        return std::make_unique<SubHorizonForceState>(influence, Weighting::volume_weighted);
+    if (name == "bond_projection")
+        return std::make_unique<BondProjectionForceState>(influence);
+    throw std::invalid_argument("no force state is called '" + name + "'");
+}
+
+} // namespace periporo

@@ -1,0 +1,31 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Finding families anew and handing the state of bonds over from the old ones.
+#pragma once
+
+#include "model/model.hpp"
+#include "operator/force_state.hpp"
+
+namespace periporo {
+
+/// Families of a model that has none yet; all bonds start with zero stress and initial state variables.
+void find_first_families(Model& model);
+
+/// Families from the current positions. A bond that was active and is still there keeps its state; any other bond
+/// (i,j) takes the mean of the point states of i and j, a point state being the share-weighted mean over the active
+/// bonds of the point. A point without active bonds remembers its state variables and has zero stress.
+void refresh_families(Model& model, const ForceState& force_state);
+
+/// Mean states of all points from their bonds, laid out like Model::point_state, which `states` must start from: a free
+/// grain keeps its state variables there.
+void mean_point_states(const Model& model, const ForceState& force_state, std::vector<double>& states);
+
+/// Lays out the bond data for the families of the model, values not set.
+void allocate_bonds(Model& model);
+
+/// The largest displacement of a point since the last refresh relative to the mean displacement of all [m]. Bonds have
+/// changed by at most twice as much.
+double displacement_since_refresh(const Model& model);
+
+} // namespace periporo

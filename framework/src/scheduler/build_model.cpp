@@ -1,0 +1,238 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "scheduler/build_model.hpp"
+
+#include "operator/bond_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace periporo {
+namespace {
+
+constexpr double water_density = 1000.0; // [kg/m3]
+
+/// True when the boundaries leave the position in the model.
+bool kept(const CaseDescription& description, const Vector3& x)
+{
+    return std::all_of(description.boundaries.begin(), description.boundaries.end(), [&](const auto& boundary) {
+        const double beyond = x[boundary.plane.axis] - boundary.plane.offset;
+        return beyond >= 0.0 && (boundary.type != "periodic" || beyond < boundary.period);
+    });
+}
+
+/// Position along a Z-order curve through cells of one spacing.
+std::uint64_t curve_position(const Vector3& x, const Vector3& lower, double spacing)
+{
+    std::uint64_t code = 0;
+    for (int c = 0; c < 3; ++c) {
+        const auto cell = static_cast<std::uint64_t>(std::max(0.0, (x[c] - lower[c]) / spacing));
+        for (int bit = 0; bit < 21; ++bit)
+            code |= (cell >> bit & 1u) << (3 * bit + c);
+    }
+    return code;
+}
+
+void add_body(BuiltModel& built, const CaseDescription& description, std::size_t index, const PluginRegistry& registry)
+{
+    const BodyDescription& body = description.bodies[index];
+    const auto material = std::find_if(description.materials.begin(), description.materials.end(),
+                                       [&](const MaterialDescription& m) { return m.name == body.material; });
+    const auto geometry = registry.make_geometry(body.geometry.name, body.geometry.parameters);
+    PointCloud cloud;
+    try {
+        cloud = geometry->fill(description.discretization.spacing);
+    } catch (const std::exception& error) {
+        throw std::runtime_error(fmt::format("body '{}': {}", body.name, error.what()));
+    }
+    const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
+    const double difference = filled / geometry->volume() - 1.0;
+    if (std::abs(difference) > 1e-9)
+        built.remarks.push_back(
+            fmt::format("body '{}': whole cells hold {:+.2f} per cent of its exact volume more or less", body.name,
+                        100.0 * difference));
+    Points& points = built.model.points;
+    const double density =
+        material->grain_density * (1.0 - material->porosity) + body.saturation * material->porosity * water_density;
+    std::size_t cut = 0;
+    for (std::size_t p = 0; p < cloud.positions.size(); ++p) {
+        if (!kept(description, cloud.positions[p])) {
+            ++cut;
+            continue;
+        }
+        const std::size_t i = points.size();
+        points.resize(i + 1);
+        points.position[i] = points.initial_position[i] = cloud.positions[p];
+        points.velocity[i] = body.velocity;
+        points.volume[i] = points.initial_volume[i] = cloud.volumes[p];
+        points.mass[i] = density * cloud.volumes[p];
+        points.suction[i] = body.suction;
+        points.saturation[i] = body.saturation;
+        points.body[i] = static_cast<std::uint32_t>(index);
+        points.id[i] = static_cast<std::int64_t>(p);
+    }
+    if (cut == cloud.positions.size())
+        throw std::runtime_error(
+            fmt::format("body '{}': no point lies on the kept side of the symmetry planes and periodic pairs (the side "
+                        "of larger coordinates)",
+                        body.name));
+    if (cut > 0)
+        built.remarks.push_back(fmt::format("body '{}': {} of {} points lie behind symmetry planes and are represented "
+                                            "by images",
+                                            body.name, cut, cloud.positions.size()));
+    built.model.bodies.push_back(
+        {body.name,
+         std::shared_ptr<const Material>(registry.make_material(material->model.name, material->model.parameters)),
+         body.initial_stress.overconsolidation_ratio});
+}
+
+void order_along_curve(Points& points, double spacing)
+{
+    Vector3 lower = points.position.front();
+    for (const Vector3& x : points.position)
+        lower = lower.cwiseMin(x);
+    std::vector<std::uint64_t> code(points.size());
+    std::transform(points.position.begin(), points.position.end(), code.begin(),
+                   [&](const Vector3& x) { return curve_position(x, lower, spacing); });
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return code[a] < code[b]; });
+    const auto apply = [&](auto& values) {
+        auto sorted = values;
+        for (std::size_t i = 0; i < order.size(); ++i)
+            sorted[i] = values[order[i]];
+        values = std::move(sorted);
+    };
+    apply(points.position);
+    apply(points.velocity);
+    apply(points.initial_position);
+    apply(points.volume);
+    apply(points.initial_volume);
+    apply(points.jacobian);
+    apply(points.mass);
+    apply(points.suction);
+    apply(points.saturation);
+    apply(points.body);
+    apply(points.id);
+}
+
+} // namespace
+
+BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry)
+{
+    BuiltModel built;
+    Model& model = built.model;
+    model.spacing = description.discretization.spacing;
+    model.horizon = description.discretization.horizon_ratio * model.spacing;
+    model.gravity = description.gravity;
+    for (std::size_t b = 0; b < description.bodies.size(); ++b)
+        add_body(built, description, b, registry);
+    order_along_curve(model.points, model.spacing);
+    model.allocate();
+
+    for (const ContactDescription& contact : description.contacts) {
+        const std::shared_ptr<Contact> law = registry.make_contact(contact.law.name, contact.law.parameters);
+        law->scale({model.spacing, model.horizon});
+        if (law->cutoff() >= model.horizon)
+            throw std::runtime_error(fmt::format("contact '{}': its cut-off {:.4g} m is not shorter than the horizon "
+                                                 "{:.4g} m",
+                                                 contact.law.name, law->cutoff(), model.horizon));
+        std::vector<std::uint32_t> bodies;
+        for (const std::string& name : contact.between)
+            for (std::uint32_t b = 0; b < description.bodies.size(); ++b)
+                if (description.bodies[b].name == name)
+                    bodies.push_back(b);
+        if (law->surface() == nullptr && bodies.size() == 1)
+            bodies.push_back(bodies.front());
+        built.contacts.push_back({law, bodies});
+    }
+    return built;
+}
+
+std::vector<Isometry> image_generators(const CaseDescription& description, const StageDescription& stage)
+{
+    std::vector<Isometry> generators;
+    for (const BoundaryDescription& boundary : description.boundaries)
+        generators.push_back(boundary.type == "periodic"
+                                 ? Isometry::shift(boundary.plane.axis, boundary.period)
+                                 : Isometry::reflection(boundary.plane.axis, boundary.plane.offset));
+    for (const PlaneDescription& roller : stage.rollers)
+        if (roller.axis != cylinder_axis)
+            generators.push_back(Isometry::reflection(roller.axis, roller.offset));
+    return generators;
+}
+
+std::vector<HeldDirection> held_by_rollers(const Model& model, const StageDescription& stage)
+{
+    std::vector<HeldDirection> held;
+    for (const PlaneDescription& roller : stage.rollers) {
+        if (roller.axis != cylinder_axis)
+            continue;
+        for (std::uint32_t i = 0; i < model.size(); ++i) {
+            const Vector3& x = model.points.initial_position[i];
+            const Vector3 radial(x.x(), x.y(), 0.0);
+            if (radial.norm() > roller.offset - model.spacing)
+                held.push_back({i, radial.normalized()});
+        }
+    }
+    return held;
+}
+
+void initialize_materials(Model& model)
+{
+    StressWorkspace workspace;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const FamilyView family = model.families[i];
+        workspace.reserve(family.packs);
+        gather_water(model, i, workspace);
+        MaterialBatch batch;
+        batch.packs = family.packs;
+        batch.bonds = model.bonds.state.data() + model.bonds.first[i];
+        batch.suction = workspace.suction.data();
+        batch.saturation = workspace.saturation.data();
+        model.body_of(i).material->initialize(batch, model.body_of(i).overconsolidation_ratio);
+    }
+}
+
+void set_initial_stress(Model& model, const CaseDescription& description)
+{
+    const double g = model.gravity.norm();
+    const Vector3 up = g > 0.0 ? Vector3(-model.gravity / g) : Vector3::UnitZ();
+    std::vector<double> top(model.bodies.size(), -std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        double& height = top[model.points.body[i]];
+        height = std::max(height, model.points.position[i].dot(up) + 0.5 * model.spacing);
+    }
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const InitialStressDescription& initial = description.bodies[model.points.body[i]].initial_stress;
+        if (initial.type != "geostatic")
+            continue;
+        const FamilyView family = model.families[i];
+        const std::size_t rows = model.rows(i);
+        const double unit_weight = model.points.mass[i] / model.points.volume[i] * g;
+        for (std::size_t b = 0; b < family.count; ++b) {
+            const NeighbourRecord& other = model.records[family.neighbours[b]];
+            const Vector3 middle =
+                0.5 * (model.points.position[i] + Vector3(other.position[0], other.position[1], other.position[2]));
+            const double depth = std::max(0.0, top[model.points.body[i]] - middle.dot(up));
+            const double vertical = -unit_weight * depth - model.points.saturation[i] * model.points.suction[i];
+            const double lateral = initial.lateral_coefficient * vertical;
+            const Eigen::Matrix3d stress =
+                lateral * Eigen::Matrix3d::Identity() + (vertical - lateral) * up * up.transpose();
+            double* bond =
+                model.bonds.state.data() + model.bonds.first[i] + b / pack_width * rows * pack_width + b % pack_width;
+            const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
+                                          stress(0, 1), stress(1, 2), stress(0, 2)};
+            for (std::size_t c = 0; c < 6; ++c)
+                bond[c * pack_width] = components[c];
+        }
+    }
+    initialize_materials(model);
+}
+
+} // namespace periporo

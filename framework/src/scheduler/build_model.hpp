@@ -1,0 +1,43 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// From a checked case to a model: points of all bodies, materials, contact laws, initial stress.
+#pragma once
+
+#include "case/description.hpp"
+#include "contact/contact_forces.hpp"
+#include "model/model.hpp"
+#include "plugins/registry.hpp"
+#include "time/dynamics.hpp"
+
+#include <string>
+#include <vector>
+
+namespace periporo {
+
+struct BuiltModel {
+    Model model;
+    std::vector<ContactAssignment> contacts;
+    std::vector<std::string> remarks; ///< what a user should know: points cut away, mass of whole cells against exact
+};
+
+/// Points of all bodies, cut at symmetry planes (the side of larger coordinates stays) and to periodic cells, in the
+/// order of a space-filling curve.
+/// @throws PluginError or std::runtime_error naming the body when a geometry cannot be filled.
+BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry);
+
+/// Isometries of the boundaries of the case and the plane rollers of a stage.
+std::vector<Isometry> image_generators(const CaseDescription& description, const StageDescription& stage);
+
+/// Points at the cylindrical rollers of a stage ("r = 100 mm", about the z axis): within one spacing of the outermost
+/// ring; their radial velocity is held.
+std::vector<HeldDirection> held_by_rollers(const Model& model, const StageDescription& stage);
+
+/// Initial effective stress of all bonds (tension-positive, from the depth of the middle of the bond below the top of
+/// its body: sigma_v = -rho g depth - S_r s, sigma_h = K0 sigma_v) and the state of the materials that goes with it.
+void set_initial_stress(Model& model, const CaseDescription& description);
+
+/// State variables of all bonds from their stress and the overconsolidation ratio of the body.
+void initialize_materials(Model& model);
+
+} // namespace periporo

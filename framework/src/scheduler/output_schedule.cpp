@@ -1,0 +1,112 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "scheduler/output_schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace periporo {
+namespace {
+
+constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+
+/// All times of an output: multiples of its interval up to the end of the run, and the times it names.
+std::vector<double> times_of(const OutputDescription& output, double end)
+{
+    std::vector<double> times = output.times;
+    if (output.every > 0.0)
+        for (std::uint64_t k = 1; static_cast<double>(k) * output.every <= end * (1.0 + 1e-12); ++k)
+            times.push_back(static_cast<double>(k) * output.every);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+} // namespace
+
+OutputSchedule::OutputSchedule(const CaseDescription& description, const PluginRegistry& registry)
+    : history_every_(description.history_every)
+{
+    double end = 0.0;
+    for (const StageDescription& stage : description.stages)
+        end += stage.duration;
+    for (const OutputDescription& output : description.outputs)
+        outputs_.push_back(
+            {registry.make_output(output.writer.name, output.writer.parameters), times_of(output, end), never});
+}
+
+void OutputSchedule::begin(RunDescription run)
+{
+    run.history = history_columns();
+    for (Output& output : outputs_)
+        output.writer->begin(run);
+}
+
+Snapshot OutputSchedule::snapshot(const Model& model, const ForceState& force_state, const RunPosition& at,
+                                  const std::string& stage)
+{
+    return {at.step,
+            at.time,
+            stage,
+            {model.points.position.front().data(), 3 * model.size()},
+            fields_.collect(model, force_state)};
+}
+
+void OutputSchedule::write_due(const Model& model, const ForceState& force_state, const Dynamics& dynamics,
+                               RunPosition& at, const std::string& stage)
+{
+    if (at.time >= static_cast<double>(at.next_history) * history_every_) {
+        const std::vector<double> row = history_row(model, dynamics, at.time, at.time_step);
+        for (Output& output : outputs_)
+            output.writer->history(at.step, row);
+        at.next_history = static_cast<std::uint64_t>(std::floor(at.time / history_every_)) + 1;
+    }
+    at.next_output.resize(outputs_.size(), 0);
+    Snapshot taken;
+    bool have = false;
+    for (std::size_t o = 0; o < outputs_.size(); ++o) {
+        Output& output = outputs_[o];
+        std::uint64_t& next = at.next_output[o];
+        if (next >= output.times.size() || at.time < output.times[next])
+            continue;
+        while (next < output.times.size() && at.time >= output.times[next])
+            ++next;
+        if (!have)
+            taken = snapshot(model, force_state, at, stage);
+        have = true;
+        output.writer->snapshot(taken);
+        output.written_step = at.step;
+    }
+}
+
+void OutputSchedule::write_now(const Model& model, const ForceState& force_state, const RunPosition& at,
+                               const std::string& stage)
+{
+    Snapshot taken;
+    bool have = false;
+    for (Output& output : outputs_) {
+        if (output.written_step == at.step)
+            continue;
+        if (!have)
+            taken = snapshot(model, force_state, at, stage);
+        have = true;
+        output.writer->snapshot(taken);
+        output.written_step = at.step;
+    }
+}
+
+void OutputSchedule::flush()
+{
+    for (Output& output : outputs_)
+        output.writer->flush();
+}
+
+void OutputSchedule::finish(bool complete)
+{
+    for (Output& output : outputs_)
+        output.writer->finish(complete);
+}
+
+} // namespace periporo

@@ -1,0 +1,49 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The writers of a run and when each is due.
+#pragma once
+
+#include "case/description.hpp"
+#include "io/checkpoint.hpp"
+#include "model/model.hpp"
+#include "plugins/registry.hpp"
+#include "scheduler/snapshot_fields.hpp"
+#include "time/dynamics.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace periporo {
+
+class OutputSchedule {
+public:
+    /// @throws PluginError
+    OutputSchedule(const CaseDescription& description, const PluginRegistry& registry);
+
+    void begin(RunDescription run);
+    /// Snapshots and history rows that are due at the present time of a dynamic stage.
+    void write_due(const Model& model, const ForceState& force_state, const Dynamics& dynamics, RunPosition& at,
+                   const std::string& stage);
+    /// A snapshot by every writer now, whatever the schedule; not twice for one step.
+    void write_now(const Model& model, const ForceState& force_state, const RunPosition& at, const std::string& stage);
+    /// Everything so far to the disk, before a checkpoint claims it.
+    void flush();
+    void finish(bool complete);
+
+private:
+    struct Output {
+        std::unique_ptr<OutputWriter> writer;
+        std::vector<double> times; ///< sorted, within the run
+        std::uint64_t written_step;
+    };
+    Snapshot snapshot(const Model& model, const ForceState& force_state, const RunPosition& at,
+                      const std::string& stage);
+
+    std::vector<Output> outputs_;
+    double history_every_;
+    SnapshotFields fields_;
+};
+
+} // namespace periporo

@@ -1,0 +1,119 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "scheduler/run.hpp"
+
+#include "operator/refresh.hpp"
+#include "scheduler/build_model.hpp"
+#include "scheduler/progress.hpp"
+#include "scheduler/simulation.hpp"
+
+#include <fmt/format.h>
+#include <fstream>
+#include <omp.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+
+namespace periporo {
+namespace {
+
+std::shared_ptr<spdlog::logger> make_log(const RunOptions& options)
+{
+    const auto file =
+        std::make_shared<spdlog::sinks::basic_file_sink_mt>((options.directory / "run.log").string(), !options.resume);
+    file->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
+    const auto terminal = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+    terminal->set_pattern("%v");
+    terminal->set_level(options.quiet ? spdlog::level::warn : spdlog::level::info);
+    auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{file, terminal});
+    log->flush_on(spdlog::level::info);
+    return log;
+}
+
+} // namespace
+
+RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options)
+{
+    std::filesystem::create_directories(options.directory);
+    if (options.threads > 0)
+        omp_set_num_threads(options.threads);
+    const std::shared_ptr<spdlog::logger> log = make_log(options);
+    try {
+        for (const std::string& warning : description.warnings)
+            log->warn(warning);
+        log->info("{}: '{}' into {}", description.file.string(), description.title, options.directory.string());
+        std::ofstream(options.directory / "case.toml") << description.resolved;
+        Simulation simulation(description, registry, options, log);
+        return simulation.run();
+    } catch (const std::exception& error) {
+        log->sinks().front()->log({"run", spdlog::level::err, error.what()});
+        log->flush();
+        throw;
+    }
+}
+
+std::string explain_case(const CaseDescription& description, const PluginRegistry& registry)
+{
+    BuiltModel built = build_model(description, registry);
+    Model& model = built.model;
+    model.isometries.set_generators(image_generators(description, description.stages.front()));
+    find_first_families(model);
+    const auto force_state = make_force_state(description.operators.force_state,
+                                              Influence::by_name(description.operators.influence, model.horizon));
+    FrequencyEstimate frequency;
+    const StableStep stable = stable_step(model, *force_state, ContactForces(std::move(built.contacts)), frequency, 40,
+                                          description.time.safety);
+    const double step = description.time.step.value_or(stable.step);
+
+    std::string text = fmt::format("{}\n", description.title);
+    for (std::size_t b = 0; b < description.bodies.size(); ++b) {
+        std::size_t count = 0;
+        double mass = 0.0;
+        for (std::size_t i = 0; i < model.size(); ++i)
+            if (model.points.body[i] == b) {
+                ++count;
+                mass += model.points.mass[i];
+            }
+        const BodyDescription& body = description.bodies[b];
+        text += fmt::format("  body '{}': {} of '{}', {} points, {:.4g} kg, {}\n", body.name, body.geometry.name,
+                            body.material, count, mass,
+                            body.suction > 0.0
+                                ? fmt::format("suction {:.4g} Pa at saturation {:.3g}", body.suction, body.saturation)
+                                : "dry");
+    }
+    for (const std::string& remark : built.remarks)
+        text += fmt::format("  {}\n", remark);
+    text += fmt::format("  spacing {:.4g} m, horizon {:.4g} m, {} bonds ({:.1f} a point), {} images\n", model.spacing,
+                        model.horizon, model.families.bonds(),
+                        static_cast<double>(model.families.bonds()) / static_cast<double>(model.size()),
+                        model.families.images().size());
+    text += fmt::format("  force state {}, influence {}\n", description.operators.force_state,
+                        description.operators.influence);
+    text += fmt::format("  step {:.4g} s (operator 2/omega {:.4g} s, wave rule {:.4g} s{})\n", step,
+                        2.0 / stable.frequency, stable.wave_limit,
+                        stable.contact_frequency > 0.0
+                            ? fmt::format(", contact 2/omega {:.4g} s", 2.0 / stable.contact_frequency)
+                            : "");
+    double point_steps = 0.0;
+    for (const StageDescription& stage : description.stages) {
+        if (stage.type == "quasi_static") {
+            text += fmt::format("  stage '{}': settles under gravity until the residual is {:.1e}, at most {} steps\n",
+                                stage.name, stage.residual, stage.maximum_steps);
+            continue;
+        }
+        const double steps = stage.duration / step;
+        point_steps += steps * static_cast<double>(model.size());
+        text += fmt::format("  stage '{}': {:.4g} s, {:.0f} steps\n", stage.name, stage.duration, steps);
+    }
+    // One evaluation, timed, tells the speed on this machine.
+    model.update_records();
+    const double begin = omp_get_wtime();
+    force_state->evaluate(model, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
+    const double seconds = omp_get_wtime() - begin;
+    text += fmt::format(
+        "  {:.1f} MB; about {} for the dynamic stages on {} threads", 1e-6 * static_cast<double>(model.memory()),
+        duration_text(1.3 * seconds * point_steps / static_cast<double>(model.size())), omp_get_max_threads());
+    return text;
+}
+
+} // namespace periporo

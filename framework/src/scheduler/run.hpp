@@ -1,0 +1,35 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Runs a checked case from its first stage to its last.
+#pragma once
+
+#include "case/description.hpp"
+#include "plugins/registry.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace periporo {
+
+struct RunOptions {
+    std::filesystem::path directory; ///< results; made when missing
+    int threads = 0;                 ///< 0 takes what OpenMP offers
+    bool resume = false;             ///< go on from the checkpoint in `directory`
+    bool quiet = false;              ///< no progress on the terminal; the log file is written all the same
+};
+
+enum class RunOutcome {
+    complete,   ///< exit status 0
+    interrupted ///< SIGINT or SIGTERM came; a checkpoint was written, exit status 130
+};
+
+/// Runs the case. Writes log, results, checkpoint and summary into the directory.
+/// @throws std::exception with stage, step, time, point and position when the run goes wrong (exit status 1).
+/// @throws PluginError or CaseError when the fault is the user's (exit status 2).
+RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options);
+
+/// The case in plain words: bodies, points, families, stages, stable step, memory and the work ahead.
+std::string explain_case(const CaseDescription& description, const PluginRegistry& registry);
+
+} // namespace periporo

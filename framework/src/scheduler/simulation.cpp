@@ -1,0 +1,411 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "scheduler/simulation.hpp"
+
+#include "operator/refresh.hpp"
+#include "scheduler/build_model.hpp"
+#include "scheduler/provenance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+
+namespace periporo {
+namespace {
+
+constexpr int first_iterations = 40; // of the frequency estimate when a stage begins
+constexpr int later_iterations = 6;  // when it is renewed, from the last mode
+constexpr std::uint64_t steps_per_estimate = 150;
+constexpr std::uint64_t steps_per_point_check = 100;
+
+DynamicsSettings settings_of(const CaseDescription& description)
+{
+    return {description.discretization.skin_ratio * description.discretization.spacing,
+            description.discretization.refresh == "every_step"};
+}
+
+bool is_quasi_static(const StageDescription& stage)
+{
+    return stage.type == "quasi_static";
+}
+
+} // namespace
+
+Simulation::Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
+                       std::shared_ptr<spdlog::logger> log)
+    : description_(description), registry_(registry), options_(options), log_(std::move(log)),
+      force_state_(make_force_state(
+          description.operators.force_state,
+          Influence::by_name(description.operators.influence,
+                             description.discretization.horizon_ratio * description.discretization.spacing))),
+      contact_(std::vector<ContactAssignment>{}), dynamics_(model_, *force_state_, contact_, settings_of(description)),
+      outputs_(description, registry), progress_(options.quiet), started_(std::chrono::steady_clock::now()),
+      last_checkpoint_(started_)
+{
+    BuiltModel built = build_model(description, registry);
+    model_ = std::move(built.model);
+    contact_ = ContactForces(std::move(built.contacts));
+    for (const std::string& remark : built.remarks)
+        log_->info(remark);
+}
+
+RunOutcome Simulation::run()
+{
+    restore();
+    outputs_.begin(describe_run());
+    try {
+        for (; at_.stage < description_.stages.size(); ++at_.stage) {
+            const StageDescription& stage = description_.stages[at_.stage];
+            if (!resuming_)
+                begin_stage();
+            resuming_ = false;
+            if (!(is_quasi_static(stage) ? quasi_static(stage) : dynamic(stage))) {
+                progress_.clear();
+                checkpoint();
+                outputs_.finish(false);
+                write_summary("interrupted", "");
+                log_->warn("interrupted in stage '{}' after {} steps, time {:.6g} s; --resume goes on from here",
+                           stage.name, at_.step, at_.time);
+                return RunOutcome::interrupted;
+            }
+            end_stage();
+        }
+    } catch (const MaterialFailure& failure) {
+        fail(fmt::format("{} at position ({:.5g}, {:.5g}, {:.5g}) m", failure.what(),
+                         model_.points.position[failure.point()].x(), model_.points.position[failure.point()].y(),
+                         model_.points.position[failure.point()].z()));
+    }
+    progress_.clear();
+    outputs_.finish(true);
+    write_summary("complete", "");
+    std::filesystem::remove(options_.directory / "checkpoint.h5");
+    return RunOutcome::complete;
+}
+
+RunDescription Simulation::describe_run() const
+{
+    RunDescription run;
+    run.directory = options_.directory;
+    run.title = description_.title;
+    run.resolved_case = description_.resolved;
+    run.provenance = provenance(description_, registry_, options_.threads);
+    run.resumed = resuming_;
+    run.resumed_step = at_.step;
+    return run;
+}
+
+void Simulation::restore()
+{
+    const std::filesystem::path file = options_.directory / "checkpoint.h5";
+    if (!options_.resume)
+        return;
+    if (!std::filesystem::exists(file)) {
+        log_->warn("nothing to resume in {}: no checkpoint.h5; starting from the beginning",
+                   options_.directory.string());
+        return;
+    }
+    read_checkpoint(
+        file, {model_, contact_, dynamics_, frequency_, at_}, description_.resolved, settings_of(description_).skin,
+        [this](std::uint64_t stage) { return image_generators(description_, description_.stages.at(stage)); });
+    dynamics_.hold(held_by_rollers(model_, description_.stages[at_.stage]));
+    reports_ = nlohmann::json::parse(at_.stage_reports);
+    resuming_ = true;
+    log_->info("resumed in stage '{}' at step {}, time {:.6g} s", description_.stages[at_.stage].name, at_.step,
+               at_.time);
+}
+
+void Simulation::begin_stage()
+{
+    const StageDescription& stage = description_.stages[at_.stage];
+    at_.stage_step = 0;
+    at_.moved = false;
+    at_.stage_start = at_.time;
+    model_.isometries.set_generators(image_generators(description_, stage));
+    if (at_.stage == 0) {
+        find_first_families(model_);
+        set_initial_stress(model_, description_);
+        log_->info("{} points, {} bonds ({:.1f} a point), {:.1f} MB ({:.1f} kB a point)", model_.size(),
+                   model_.families.bonds(),
+                   static_cast<double>(model_.families.bonds()) / static_cast<double>(model_.size()),
+                   1e-6 * static_cast<double>(model_.memory()),
+                   1e-3 * static_cast<double>(model_.memory()) / static_cast<double>(model_.size()));
+    } else {
+        dynamics_.refresh();
+    }
+    dynamics_.hold(held_by_rollers(model_, stage));
+    renew_step(first_iterations);
+    dynamics_.start();
+    if (!is_quasi_static(stage) && !at_.ledger_open) {
+        dynamics_.open_ledger();
+        at_.ledger_open = true;
+        outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name);
+        outputs_.write_now(model_, *force_state_, at_, stage.name);
+    }
+}
+
+void Simulation::end_stage()
+{
+    const StageDescription& stage = description_.stages[at_.stage];
+    nlohmann::json report{{"name", stage.name},
+                          {"type", stage.type},
+                          {"steps", at_.stage_step},
+                          {"time_step", at_.time_step},
+                          {"end_time", at_.time},
+                          {"residual", dynamics_.residual()},
+                          {"mean_speed", dynamics_.mean_speed()}};
+    if (is_quasi_static(stage)) {
+        report_vertical_stress(report);
+        if (stage.response == "elastic")
+            initialize_materials(model_);
+    } else {
+        outputs_.write_now(model_, *force_state_, at_, stage.name);
+    }
+    reports_.push_back(report);
+    log_->info("stage '{}' ended: {} steps, residual {:.2e}, mean speed {:.2e} m/s", stage.name, at_.stage_step,
+               dynamics_.residual(), dynamics_.mean_speed());
+    if (is_quasi_static(stage))
+        std::fill(model_.points.velocity.begin(), model_.points.velocity.end(), Vector3::Zero());
+}
+
+void Simulation::renew_step(int iterations)
+{
+    if (description_.time.step) {
+        at_.time_step = *description_.time.step;
+        return;
+    }
+    const StableStep stable =
+        stable_step(model_, *force_state_, contact_, frequency_, iterations, description_.time.safety);
+    const bool news = std::abs(stable.step - at_.time_step) > 0.1 * at_.time_step;
+    at_.time_step = stable.step;
+    if (news)
+        log_->info("stable step {:.4g} s: operator 2/omega = {:.4g} s, contact 2/omega = {:.4g} s, wave rule {:.4g} s",
+                   stable.step, 2.0 / stable.frequency,
+                   stable.contact_frequency > 0.0 ? 2.0 / stable.contact_frequency : INFINITY, stable.wave_limit);
+}
+
+void Simulation::take_step(const StepOptions& options)
+{
+    if (at_.stage_step > 0 && at_.stage_step % steps_per_estimate == 0)
+        renew_step(later_iterations);
+    StepOptions with_step = options;
+    with_step.time_step = at_.time_step;
+    dynamics_.step(with_step);
+    ++at_.stage_step;
+    ++at_.step;
+    ++steps_here_;
+    if (!std::isfinite(dynamics_.ledger().kinetic) || at_.stage_step % steps_per_point_check == 0)
+        check_points();
+}
+
+bool Simulation::quasi_static(const StageDescription& stage)
+{
+    StepOptions options;
+    options.local_damping = stage.damping;
+    options.response = stage.response == "elastic" ? MaterialResponse::elastic : MaterialResponse::full;
+    // At rest means slower than one would become by falling over one spacing, by the tolerance of the residual.
+    const double rest = stage.residual * std::sqrt(model_.gravity.norm() * model_.spacing);
+    while (at_.stage_step == 0 || dynamics_.residual() > stage.residual || dynamics_.mean_speed() > rest) {
+        if (at_.stage_step >= static_cast<std::uint64_t>(stage.maximum_steps))
+            fail(fmt::format("no equilibrium after {} steps: residual {:.2e} (wanted {:.2e}), mean speed {:.2e} m/s "
+                             "(wanted {:.2e}); raise maximum_steps, or until.residual, or look for a body that nothing "
+                             "holds",
+                             at_.stage_step, dynamics_.residual(), stage.residual, dynamics_.mean_speed(), rest));
+        take_step(options);
+        progress_.update([&] {
+            return fmt::format("{}: step {}, residual {:.2e} of {:.2e}", stage.name, at_.stage_step,
+                               dynamics_.residual(), stage.residual);
+        });
+        if (stop_here())
+            return false;
+    }
+    return true;
+}
+
+bool Simulation::dynamic(const StageDescription& stage)
+{
+    const double end = at_.stage_start + stage.duration;
+    while (at_.time < end) {
+        take_step({});
+        at_.time += at_.time_step;
+        outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name);
+        progress_.update([&] { return stage_line((at_.time - at_.stage_start) / stage.duration); });
+        // What starts from rest comes to rest only after it has moved.
+        at_.moved = at_.moved || (stage.rest_speed && dynamics_.mean_speed() > 2.0 * *stage.rest_speed);
+        if (at_.moved && dynamics_.mean_speed() < *stage.rest_speed)
+            break;
+        if (stop_here())
+            return false;
+    }
+    return true;
+}
+
+std::string Simulation::stage_line(double fraction) const
+{
+    const double elapsed = wall_seconds() - at_.wall_seconds;
+    const double rate = static_cast<double>(steps_here_) / std::max(elapsed, 1e-9);
+    const double left = (description_.stages[at_.stage].duration * (1.0 - fraction)) / (rate * at_.time_step);
+    std::size_t inactive = 0, free_grains = 0;
+    for (std::size_t i = 0; i < model_.size(); ++i) {
+        inactive += model_.inactive_bonds[i];
+        free_grains += model_.free_grain[i];
+    }
+    return fmt::format(
+        "{}: {:.4f} s ({:.0f} %), {:.3g} point-steps/s, {} left, E_kin {:.3g} J, {} inactive bonds, {} free "
+        "grains",
+        description_.stages[at_.stage].name, at_.time, 100.0 * fraction, rate * static_cast<double>(model_.size()),
+        duration_text(left), dynamics_.ledger().kinetic, inactive, free_grains);
+}
+
+void Simulation::check_points() const
+{
+    const double far = 1e3 * model_.horizon;
+    for (std::size_t i = 0; i < model_.size(); ++i) {
+        const Vector3& x = model_.points.position[i];
+        const bool finite = x.allFinite() && model_.points.velocity[i].allFinite();
+        if (finite && (x - model_.points.initial_position[i]).norm() < far)
+            continue;
+        const_cast<Simulation*>(this)->fail(fmt::format(
+            "point {} of body '{}' {} at position ({:.5g}, {:.5g}, {:.5g}) m; a smaller [time] safety or a [time] step "
+            "shows whether the step is to blame",
+            model_.points.id[i], model_.body_of(i).name,
+            finite ? "was lost, farther than 1000 horizons from where it began," : "is not finite", x.x(), x.y(),
+            x.z()));
+    }
+}
+
+void Simulation::report_vertical_stress(nlohmann::json& report)
+{
+    const double g = model_.gravity.norm();
+    if (g <= 0.0)
+        return;
+    const Vector3 up = -model_.gravity / g;
+    std::vector<double> states = model_.point_state;
+    mean_point_states(model_, *force_state_, states);
+    double top = -INFINITY;
+    for (std::size_t i = 0; i < model_.size(); ++i)
+        top = std::max(top, model_.points.position[i].dot(up) + 0.5 * model_.spacing);
+    struct Layer {
+        double stress = 0.0, expected = 0.0, depth = 0.0, count = 0.0;
+    };
+    std::map<long, Layer> layers;
+    for (std::size_t i = 0; i < model_.size(); ++i) {
+        const double* s = states.data() + i * model_.state_stride;
+        Eigen::Matrix3d stress;
+        stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+        const double depth = top - model_.points.position[i].dot(up);
+        Layer& layer = layers[std::lround(std::floor(depth / model_.spacing))];
+        layer.stress += up.dot(stress * up) + model_.points.suction[i] * model_.points.saturation[i];
+        layer.expected -= model_.points.mass[i] / model_.points.initial_volume[i] * g * depth;
+        layer.depth += depth;
+        layer.count += 1.0;
+    }
+    double worst = 0.0, deepest = 0.0;
+    nlohmann::json profile = nlohmann::json::array();
+    for (const auto& [index, layer] : layers) {
+        profile.push_back({layer.depth / layer.count, layer.stress / layer.count, layer.expected / layer.count});
+        worst = std::max(worst, std::abs(layer.stress - layer.expected) / layer.count);
+        deepest = std::max(deepest, std::abs(layer.expected) / layer.count);
+    }
+    report["vertical_stress"] = {{"columns", {"depth [m]", "total vertical stress [Pa]", "-rho g depth [Pa]"}},
+                                 {"layers", profile},
+                                 {"largest_deviation", worst / deepest}};
+    log_->info("vertical stress against rho g depth: largest deviation of a layer {:.1f} per cent of the stress at the "
+               "bottom",
+               100.0 * worst / deepest);
+}
+
+bool Simulation::stop_here()
+{
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_checkpoint_ > std::chrono::duration<double>(description_.checkpoint_every))
+        checkpoint();
+    return interruption_.requested();
+}
+
+void Simulation::checkpoint()
+{
+    outputs_.flush();
+    RunPosition position = at_;
+    position.wall_seconds = wall_seconds();
+    position.stage_reports = reports_.dump();
+    write_checkpoint(options_.directory / "checkpoint.h5", {model_, contact_, dynamics_, frequency_, position},
+                     description_.resolved);
+    last_checkpoint_ = std::chrono::steady_clock::now();
+}
+
+double Simulation::wall_seconds() const
+{
+    return at_.wall_seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+void Simulation::write_summary(const std::string& outcome, const std::string& message)
+{
+    const double here = wall_seconds() - at_.wall_seconds;
+    const EnergyLedger& ledger = dynamics_.ledger();
+    nlohmann::json symmetry = nlohmann::json::array();
+    for (const BoundaryDescription& boundary : description_.boundaries)
+        if (boundary.type == "symmetry")
+            symmetry.push_back(std::string(1, "xyz"[boundary.plane.axis]));
+    nlohmann::json the_case{{"title", description_.title},
+                            {"file", description_.file.filename().string()},
+                            {"spacing", model_.spacing},
+                            {"horizon", model_.horizon},
+                            {"force_state", description_.operators.force_state},
+                            {"influence", description_.operators.influence},
+                            {"symmetry", symmetry}};
+    if (description_.comparison)
+        the_case["comparison"] = {{"law", description_.comparison->law},
+                                  {"radius", description_.comparison->radius},
+                                  {"height", description_.comparison->height}};
+    const nlohmann::json summary{
+        {"format", "periporo summary"},
+        {"outcome", outcome},
+        {"message", message},
+        {"case", the_case},
+        {"points", model_.size()},
+        {"bonds", model_.families.bonds()},
+        {"steps", at_.step},
+        {"time", at_.time},
+        {"stages", reports_},
+        {"refreshes", dynamics_.refreshes()},
+        {"wall_seconds", wall_seconds()},
+        {"point_steps_per_second", static_cast<double>(model_.size()) * static_cast<double>(steps_here_) / here},
+        {"energy",
+         {{"unit", "J"},
+          {"kinetic", ledger.kinetic},
+          {"gravity", ledger.gravity},
+          {"stress_work", ledger.stress_work},
+          {"contact", ledger.contact},
+          {"friction", ledger.friction},
+          {"collision", ledger.collision},
+          {"error", ledger.error()}}},
+        {"provenance", provenance(description_, registry_, options_.threads)}};
+    const std::filesystem::path file = options_.directory / "summary.json";
+    const std::filesystem::path aside = file.string() + ".part";
+    std::ofstream stream(aside);
+    stream << summary.dump(2) << '\n';
+    stream.close();
+    if (!stream)
+        throw std::runtime_error(fmt::format("cannot write {}", aside.string()));
+    std::filesystem::rename(aside, file);
+    log_->info("{}: {} steps, {} wall, {:.3g} point-steps/s, {:.3g} bond-steps/s", outcome, at_.step,
+               duration_text(wall_seconds()), summary["point_steps_per_second"].get<double>(),
+               static_cast<double>(model_.families.bonds()) * static_cast<double>(steps_here_) / here);
+}
+
+void Simulation::fail(const std::string& what)
+{
+    const std::string& stage = description_.stages[at_.stage].name;
+    const std::string message = fmt::format("stage '{}', step {}, time {:.6g} s: {}", stage, at_.step, at_.time, what);
+    progress_.clear();
+    outputs_.write_now(model_, *force_state_, at_, stage);
+    outputs_.finish(false);
+    write_summary("failed", message);
+    throw std::runtime_error(
+        message + fmt::format("\nthe state at the failure is the last snapshot in {}", options_.directory.string()));
+}
+
+} // namespace periporo

@@ -1,0 +1,73 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The stages of a case in order, with everything that happens between steps.
+#pragma once
+
+#include "contact/contact_forces.hpp"
+#include "io/checkpoint.hpp"
+#include "model/model.hpp"
+#include "operator/force_state.hpp"
+#include "scheduler/interruption.hpp"
+#include "scheduler/output_schedule.hpp"
+#include "scheduler/progress.hpp"
+#include "scheduler/run.hpp"
+#include "time/dynamics.hpp"
+#include "time/stable_step.hpp"
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <spdlog/logger.h>
+#include <string>
+
+namespace periporo {
+
+class Simulation {
+public:
+    Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
+               std::shared_ptr<spdlog::logger> log);
+
+    /// Runs all stages, or those that a checkpoint left over.
+    RunOutcome run();
+
+private:
+    RunDescription describe_run() const;
+    void restore();
+    void begin_stage();
+    void end_stage();
+    /// Returns false when interrupted.
+    bool quasi_static(const StageDescription& stage);
+    bool dynamic(const StageDescription& stage);
+    void renew_step(int iterations);
+    void take_step(const StepOptions& options);
+    void check_points() const;
+    void report_vertical_stress(nlohmann::json& report);
+    bool stop_here();
+    void checkpoint();
+    double wall_seconds() const;
+    std::string stage_line(double fraction) const;
+    void write_summary(const std::string& outcome, const std::string& message);
+    [[noreturn]] void fail(const std::string& what);
+
+    const CaseDescription& description_;
+    const PluginRegistry& registry_;
+    const RunOptions& options_;
+    std::shared_ptr<spdlog::logger> log_;
+    Model model_;
+    std::unique_ptr<ForceState> force_state_;
+    ContactForces contact_;
+    Dynamics dynamics_;
+    FrequencyEstimate frequency_;
+    RunPosition at_;
+    OutputSchedule outputs_;
+    Progress progress_;
+    InterruptionGuard interruption_;
+    nlohmann::json reports_ = nlohmann::json::array();
+    std::chrono::steady_clock::time_point started_;
+    std::chrono::steady_clock::time_point last_checkpoint_;
+    std::uint64_t steps_here_ = 0; ///< in this process, for the speed
+    bool resuming_ = false;
+};
+
+} // namespace periporo

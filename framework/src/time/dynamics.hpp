@@ -1,0 +1,85 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Velocity Verlet on a model, with the refresh of families, contact, constraints and the energy ledger.
+#pragma once
+
+#include "contact/contact_forces.hpp"
+#include "model/model.hpp"
+#include "operator/force_state.hpp"
+#include "time/energy_ledger.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace periporo {
+
+struct DynamicsSettings {
+    double skin = 0.0;           ///< relative displacement of a bond after which families are found anew [m]
+    bool refresh_always = false; ///< find families in every step
+};
+
+/// A velocity component that is held at zero: that along `direction` at `point`.
+struct HeldDirection {
+    std::uint32_t point;
+    Vector3 direction;
+};
+
+struct StepOptions {
+    double time_step = 0.0; ///< [s]
+    MaterialResponse response = MaterialResponse::full;
+    double local_damping = 0.0; ///< Cundall's coefficient; 0 none [-]
+};
+
+class Dynamics {
+public:
+    Dynamics(Model& model, const ForceState& force_state, ContactForces& contact, DynamicsSettings settings);
+
+    /// Forces of the stress as it is, for the first half kick. To be called whenever stress, families or constraints
+    /// were changed from outside.
+    void start();
+
+    /// One step. Points end with positions, velocities and forces at its end.
+    /// @throws MaterialFailure
+    void step(const StepOptions& options);
+
+    /// Families anew, now: after symmetry planes came or went.
+    void refresh();
+
+    void hold(std::vector<HeldDirection> held) { held_ = std::move(held); }
+
+    /// Sets all energies to zero at the present state.
+    void open_ledger();
+    const EnergyLedger& ledger() const { return state_.ledger; }
+
+    /// What a checkpoint must keep besides the model.
+    struct State {
+        EnergyLedger ledger;
+        double gravity_datum = 0.0; ///< gravity energy when the ledger was opened [J]
+        double residual = 0.0;
+        std::uint64_t refreshes = 0;
+    };
+    const State& state() const { return state_; }
+    void restore(const State& state) { state_ = state; }
+
+    /// |internal + contact + gravity force|/|gravity force|, root sums over all points, without damping. [-]
+    double residual() const { return state_.residual; }
+    /// sqrt(2 E_kin/m) over all points [m/s].
+    double mean_speed() const;
+    std::uint64_t refreshes() const { return state_.refreshes; }
+
+private:
+    void sum_forces(const StepOptions& options);
+    void apply_held(std::vector<Vector3>& vectors) const;
+    double kinetic_energy() const;
+    double gravity_energy() const;
+
+    Model& model_;
+    const ForceState& force_state_;
+    ContactForces& contact_;
+    DynamicsSettings settings_;
+    std::vector<HeldDirection> held_;
+    State state_;
+};
+
+} // namespace periporo

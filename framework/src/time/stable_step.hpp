@@ -1,0 +1,43 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The stable time step of the explicit integration.
+#pragma once
+
+#include "contact/contact_forces.hpp"
+#include "model/model.hpp"
+#include "operator/force_state.hpp"
+
+#include <vector>
+
+namespace periporo {
+
+/// What bounds the step, and the step taken.
+struct StableStep {
+    double frequency = 0.0;         ///< estimate of the largest angular frequency of the operator [rad/s]
+    double contact_frequency = 0.0; ///< bound from contact [rad/s]
+    double wave_limit = 0.0;        ///< 1.5 dx/c_p [s]
+    double step = 0.0;              ///< [s]
+};
+
+/// Largest eigenfrequency of the elastic tangent of the operator, families and images as they are, by power iteration
+/// with Rayleigh quotients. Keeps its vector, so that later estimates take few iterations; each adds an arbitrary
+/// vector of the same size, so that a mode that has newly become the highest, at a grain of the rim say, is found too.
+class FrequencyEstimate {
+public:
+    /// Angular frequency [rad/s]. Velocities and records of the model are restored.
+    double update(Model& model, const ForceState& force_state, int iterations);
+
+    const std::vector<Vector3>& mode() const { return mode_; }
+    void set_mode(std::vector<Vector3> mode) { mode_ = std::move(mode); }
+
+private:
+    std::vector<Vector3> mode_;
+};
+
+/// step = min(safety * 2/sqrt(omega^2 + omega_contact^2), 1.5 dx/c_p) with c_p = sqrt((K + 4G/3)/rho), the fastest
+/// of the bodies. The second is the wave-speed rule; the sum bounds the frequency of operator and contact together.
+StableStep stable_step(Model& model, const ForceState& force_state, const ContactForces& contact,
+                       FrequencyEstimate& estimate, int iterations, double safety);
+
+} // namespace periporo

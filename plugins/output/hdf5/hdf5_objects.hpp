@@ -1,0 +1,61 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The few HDF5 objects a result file is made of: texts, numbers, arrays, and columns that grow.
+#pragma once
+
+#include <H5Cpp.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace periporo::output {
+
+/// Runs `action` and turns what HDF5 throws, which is no std::exception, into an error with `what` and the file.
+template <class Action>
+auto guarded(const std::string& what, const std::filesystem::path& file, Action&& action)
+{
+    try {
+        H5::Exception::dontPrint();
+        return action();
+    } catch (const H5::Exception& error) {
+        throw std::runtime_error(what + " " + file.string() + ": HDF5: " + error.getDetailMsg() + " (" +
+                                 error.getFuncName() + ")");
+    }
+}
+
+/// Opens a file without locking it: somebody who looks at a running computation must not stop it.
+H5::H5File open_unlocked(const std::filesystem::path& file, unsigned flags);
+
+void write_attribute(const H5::H5Object& object, const std::string& name, const std::string& text);
+void write_attribute(const H5::H5Object& object, const std::string& name, std::int64_t value);
+void write_attribute(const H5::H5Object& object, const std::string& name, double value);
+
+std::string read_text_attribute(const H5::H5Object& object, const std::string& name);
+std::int64_t read_integer_attribute(const H5::H5Object& object, const std::string& name);
+double read_real_attribute(const H5::H5Object& object, const std::string& name);
+
+/// A scalar text of any length in UTF-8.
+void write_text(const H5::Group& group, const std::string& name, const std::string& text);
+
+/// Points x components values with their unit and description, point by point; one dimension when there is one
+/// component.
+/// @param compression deflate level, 0 for none
+void write_array(const H5::Group& group, const std::string& name, std::span<const double> values,
+                 std::size_t components, const std::string& unit, const std::string& description, int compression);
+void write_array(const H5::Group& group, const std::string& name, std::span<const std::int64_t> values,
+                 std::size_t components, const std::string& unit, const std::string& description, int compression);
+
+/// An empty column of reals or integers that grows at its end.
+void create_column(const H5::Group& group, const std::string& name, const H5::PredType& type, const std::string& unit,
+                   const std::string& description);
+void append_to_column(const H5::Group& group, const std::string& name, std::span<const double> values);
+void append_to_column(const H5::Group& group, const std::string& name, std::span<const std::int64_t> values);
+hsize_t column_length(const H5::Group& group, const std::string& name);
+void cut_column(const H5::Group& group, const std::string& name, hsize_t length);
+
+} // namespace periporo::output

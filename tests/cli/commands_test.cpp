@@ -1,0 +1,212 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The commands: exit status, what they say, where they write.
+#include "cli/program.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace periporo::test;
+
+namespace {
+
+/// A folder with the small case in `case.toml`.
+class CaseFolder : public ProgramFolder {
+public:
+    CaseFolder() { write("case.toml", small_case); }
+};
+
+} // namespace
+
+TEST_CASE("the version is printed on request")
+{
+    const ProgramResult result = ProgramFolder().run("--version");
+    CHECK(result.status == 0);
+    CHECK(result.out.starts_with("periporo "));
+}
+
+TEST_CASE("every command has a help with an example")
+{
+    for (const std::string command : {"", "run", "check", "explain", "inspect"}) {
+        CAPTURE(command);
+        const ProgramResult result = ProgramFolder().run(command + " --help");
+        CHECK(result.status == 0);
+        CHECK(contains(result.out, "Example:\n  periporo "));
+    }
+}
+
+TEST_CASE("what the command line does not know is wrong input")
+{
+    for (const std::string arguments :
+         {"", "walk", "run", "run case.toml --thread 2", "run case.toml --threads 0", "run case.toml --threads two",
+          "run case.toml --resume --overwrite", "check case.toml other.toml"}) {
+        CAPTURE(arguments);
+        const CaseFolder folder;
+        const ProgramResult result = folder.run(arguments);
+        CHECK(result.status == 2);
+        CHECK_FALSE(result.error.empty());
+        CHECK(folder.entries() == std::set<std::string>{"case.toml"});
+    }
+}
+
+TEST_CASE("a case that is not there is wrong input")
+{
+    const ProgramResult result = ProgramFolder().run("run nowhere.toml");
+    CHECK(result.status == 2);
+    CHECK(contains(result.error, "nowhere.toml: error: cannot read the case: no such file"));
+}
+
+TEST_CASE("check accepts a sound case and writes nothing")
+{
+    const CaseFolder folder;
+    const ProgramResult result = folder.run("check case.toml");
+    CHECK(result.status == 0);
+    CHECK(result.out == "case.toml: no errors\n");
+    CHECK(result.error.empty());
+    CHECK(folder.entries() == std::set<std::string>{"case.toml"});
+}
+
+TEST_CASE("check shows warnings and still accepts")
+{
+    const CaseFolder folder;
+    const ProgramResult result = folder.run("check case.toml --set discretization.horizon=3");
+    CHECK(result.status == 0);
+    CHECK(contains(result.error, "--set discretization.horizon=3: warning: "));
+}
+
+TEST_CASE("a repeated option does not swallow the case, wherever it stands")
+{
+    const CaseFolder folder;
+    CHECK(folder.run("check --set time.safety=0.5 --set \"title=two words\" case.toml").status == 0);
+    CHECK(folder.run("check --plugin-path . case.toml").status == 0);
+}
+
+TEST_CASE("the path of a case may hold a space")
+{
+    const ProgramFolder folder;
+    folder.write("my case.toml", small_case);
+    CHECK(folder.run("check 'my case.toml'").status == 0);
+}
+
+TEST_CASE("explain names bodies and stages and writes nothing")
+{
+    const CaseFolder folder;
+    const ProgramResult result = folder.run("explain case.toml");
+    CHECK(result.status == 0);
+    CHECK(contains(result.out, "block"));
+    CHECK(contains(result.out, "64 points")); // 100 mm/25 mm along each edge
+    CHECK(contains(result.out, "fall"));
+    CHECK(folder.entries() == std::set<std::string>{"case.toml"});
+}
+
+TEST_CASE("run writes into results/<name of the case> when nothing else is said")
+{
+    const CaseFolder folder;
+    const ProgramResult result = folder.run("run case.toml --quiet --threads 1");
+    CAPTURE(result.error);
+    CHECK(result.status == 0);
+    CHECK(std::filesystem::is_directory(folder.path() / "results/case"));
+}
+
+TEST_CASE("run keeps a resolved copy of the case that is a sound case itself")
+{
+    const CaseFolder folder;
+    REQUIRE(folder.run("run case.toml --out here --quiet --set time.safety=0.5").status == 0);
+    const ProgramResult again = folder.run("check here/case.toml");
+    CHECK(again.status == 0);
+    CHECK(contains(ProgramFolder::read(folder.path() / "here/case.toml"), "safety = 0.5"));
+}
+
+TEST_CASE("run does not write over earlier results unless it is told to")
+{
+    const CaseFolder folder;
+    REQUIRE(folder.run("run case.toml --out here --quiet").status == 0);
+    const std::string log = ProgramFolder::read(folder.path() / "here/run.log");
+
+    const ProgramResult refused = folder.run("run case.toml --out here --quiet");
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.error, "--resume"));
+    CHECK(contains(refused.error, "--overwrite"));
+    CHECK(ProgramFolder::read(folder.path() / "here/run.log") == log);
+
+    folder.write("here/leftover.txt", "of an earlier run");
+    CHECK(folder.run("run case.toml --out here --quiet --overwrite").status == 0);
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "here/leftover.txt"));
+}
+
+TEST_CASE("overwrite with a wrong case deletes nothing")
+{
+    const CaseFolder folder;
+    REQUIRE(folder.run("run case.toml --out here --quiet").status == 0);
+    const std::string log = ProgramFolder::read(folder.path() / "here/run.log");
+    CHECK(folder.run("run case.toml --out here --quiet --overwrite --set time.safty=1").status == 2);
+    CHECK(ProgramFolder::read(folder.path() / "here/run.log") == log);
+}
+
+TEST_CASE("overwrite spares a folder that holds something else")
+{
+    const CaseFolder folder;
+    folder.write("thesis/chapter.txt", "years of work");
+    const ProgramResult result = folder.run("run case.toml --out thesis --overwrite");
+    CHECK(result.status == 2);
+    CHECK(contains(result.error, "does not look like results"));
+    CHECK(std::filesystem::exists(folder.path() / "thesis/chapter.txt"));
+}
+
+TEST_CASE("there is nothing to resume in a folder that is not there")
+{
+    const CaseFolder folder;
+    const ProgramResult result = folder.run("run case.toml --out here --resume");
+    CHECK(result.status == 2);
+    CHECK(contains(result.error, "holds no run to resume"));
+    CHECK(folder.entries() == std::set<std::string>{"case.toml"});
+}
+
+TEST_CASE("results cannot go into a file")
+{
+    const CaseFolder folder;
+    CHECK(folder.run("run case.toml --out case.toml").status == 2);
+    CHECK(ProgramFolder::read(folder.path() / "case.toml") == small_case);
+}
+
+TEST_CASE("inspect lists the shipped plugins by kind")
+{
+    const ProgramResult result = ProgramFolder().run("inspect");
+    CHECK(result.status == 0);
+    for (const char* part : {"geometry\n", "material\n", "contact\n", "output\n", "box", "cylinder", "linear_elastic",
+                             "viscoplastic_critical_state", "rigid_plane", "short_range", "hdf5", "csv"}) {
+        CAPTURE(part);
+        CHECK(contains(result.out, part));
+    }
+}
+
+TEST_CASE("inspect shows every parameter of a plugin with unit, range, default and meaning")
+{
+    const ProgramResult result = ProgramFolder().run("inspect linear_elastic");
+    CHECK(result.status == 0);
+    CHECK(contains(result.out, "material linear_elastic: "));
+    CHECK(contains(result.out, "provided by /"));
+    const std::size_t begin = result.out.find("bulk_modulus");
+    REQUIRE(begin != std::string::npos);
+    const std::string line = result.out.substr(begin, result.out.find('\n', begin) - begin);
+    CHECK(contains(line, "Pa"));
+    CHECK(contains(line, "> 0"));
+    CHECK(contains(line, "required"));
+}
+
+TEST_CASE("inspect of an unknown plugin is wrong input and suggests the nearest")
+{
+    const ProgramResult result = ProgramFolder().run("inspect linear_elastik");
+    CHECK(result.status == 2);
+    CHECK(contains(result.error, "did you mean 'linear_elastic'?"));
+}
+
+TEST_CASE("inspect tells of a library that was refused, and why")
+{
+    const ProgramFolder folder;
+    folder.write("lib/periporo_material_broken.so", "no library at all");
+    const ProgramResult result = folder.run("inspect --plugin-path lib");
+    CHECK(result.status == 0);
+    CHECK(contains(result.out, "refused\n"));
+    CHECK(contains(result.out, "periporo_material_broken.so: "));
+}

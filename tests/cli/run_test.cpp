@@ -1,0 +1,111 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Whole runs of the quickstart on a coarse lattice: threads, interruption, failure.
+#include "cli/program.hpp"
+#include "unit/output/result_content.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace periporo::test;
+
+namespace {
+
+/// 150 points; half a collapse.
+const std::string coarse = "run " PERIPORO_SOURCE_DIR "/cases/column_collapse/quickstart.toml "
+                           "--set 'discretization.spacing=20 mm' --set 'stage.1.duration=0.2 s' ";
+
+std::map<std::string, std::string> results(const std::filesystem::path& file)
+{
+    std::map<std::string, std::string> content = content_of(file);
+    CHECK(content.size() > 100);
+    content.erase("/provenance/threads");
+    return content;
+}
+
+/// Paths whose content differs.
+std::set<std::string> differences(const std::map<std::string, std::string>& a,
+                                  const std::map<std::string, std::string>& b)
+{
+    std::set<std::string> paths;
+    for (const auto* side : {&a, &b})
+        for (const auto& [path, value] : *side) {
+            const auto in_a = a.find(path);
+            const auto in_b = b.find(path);
+            if (in_a == a.end() || in_b == b.end() || in_a->second != in_b->second)
+                paths.insert(path);
+        }
+    return paths;
+}
+
+} // namespace
+
+TEST_CASE("one and two threads end at the same bits, for every force state")
+{
+    const ProgramFolder folder;
+    for (const std::string state : {"energy_conjugate", "volume_weighted", "bond_projection"}) {
+        CAPTURE(state);
+        const std::string run = coarse + "--set 'operator.force_state=" + state + "' --quiet --overwrite ";
+        REQUIRE(folder.run(run + "--threads 1 --out one").status == 0);
+        REQUIRE(folder.run(run + "--threads 2 --out two").status == 0);
+        CHECK(differences(results(folder.path() / "one/results.h5"), results(folder.path() / "two/results.h5")) ==
+              std::set<std::string>{});
+    }
+}
+
+TEST_CASE("a run stopped twice and resumed ends at the same bits as one that was never stopped")
+{
+    const ProgramFolder folder;
+    REQUIRE(folder.run(coarse + "--quiet --threads 1 --out whole").status == 0);
+    // SIGTERM as soon as the first history rows are on the disk, then SIGINT in the middle of the rest
+    folder.write("stopped.sh", "set -u\n"
+                               "'" PERIPORO_PROGRAM "' " +
+                                   coarse +
+                                   " --quiet --threads 1 --out parts $2 &\n"
+                                   "pid=$!\n"
+                                   "while kill -0 $pid 2> /dev/null && [ \"$(wc -l < parts/history.csv.part)\" -lt "
+                                   "\"$3\" ]; do :; done 2> /dev/null\n"
+                                   "kill -s \"$1\" $pid\n"
+                                   "wait $pid\n");
+    const auto stopped = [&](const std::string& arguments) {
+        const int status = std::system(("cd '" + folder.path().string() + "' && sh stopped.sh " + arguments).c_str());
+        return WEXITSTATUS(status);
+    };
+    REQUIRE(stopped("TERM '' 2") == 130);
+    CHECK(std::filesystem::exists(folder.path() / "parts/checkpoint.h5"));
+    CHECK(content_of(folder.path() / "parts/results.h5").count("/snapshots/000000/position") == 1); // complete file
+    REQUIRE(stopped("INT --resume 70") == 130);
+    REQUIRE(folder.run(coarse + "--quiet --threads 1 --out parts --resume").status == 0);
+    CHECK(differences(results(folder.path() / "whole/results.h5"), results(folder.path() / "parts/results.h5")) ==
+          std::set<std::string>{});
+    CHECK(ProgramFolder::read(folder.path() / "whole/history.csv") ==
+          ProgramFolder::read(folder.path() / "parts/history.csv"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "parts/checkpoint.h5"));
+}
+
+TEST_CASE("a checkpoint of another case is refused")
+{
+    const ProgramFolder folder;
+    folder.write(
+        "stop.sh",
+        "'" PERIPORO_PROGRAM "' " + coarse +
+            " --quiet --threads 1 --out it &\npid=$!\n"
+            "while kill -0 $pid 2> /dev/null && [ ! -s it/history.csv.part ]; do :; done\nkill $pid\nwait $pid\n");
+    std::system(("cd '" + folder.path().string() + "' && sh stop.sh").c_str());
+    const ProgramResult result = folder.run(coarse + "--set 'contact.0.friction=0.4' --out it --resume");
+    CHECK(result.status == 1);
+    CHECK(result.error.find("another case") != std::string::npos);
+}
+
+TEST_CASE("a run that goes wrong says where and leaves a readable result")
+{
+    const ProgramFolder folder;
+    const ProgramResult result = folder.run(coarse + "--set 'time.step=2 ms' --quiet --threads 1 --out bad");
+    CHECK(result.status == 1);
+    for (const char* part : {"stage '", "step ", "point ", "position ("}) {
+        CAPTURE(result.error);
+        CHECK(result.error.find(part) != std::string::npos);
+    }
+    CHECK(content_of(folder.path() / "bad/results.h5").count("/snapshots/000000/position") == 1);
+    CHECK(ProgramFolder::read(folder.path() / "bad/summary.json").find("\"failed\"") != std::string::npos);
+}

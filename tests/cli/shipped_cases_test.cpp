@@ -1,0 +1,26 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Every case in the tree is a sound case.
+#include "cli/program.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace periporo::test;
+
+TEST_CASE("every shipped case passes the check without a warning")
+{
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(PERIPORO_SOURCE_DIR "/cases")) {
+        const std::string name = entry.path().filename().string();
+        // What ends in _base.toml is included by others and is no case by itself.
+        if (entry.path().extension() != ".toml" || name.ends_with("_base.toml"))
+            continue;
+        ++count;
+        const ProgramResult result = ProgramFolder().run("check '" + entry.path().string() + "'");
+        CAPTURE(result.error);
+        CHECK(result.status == 0);
+        CHECK(result.error.empty());
+    }
+    CHECK(count > 0);
+}

@@ -1,0 +1,118 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What bonds keep when families are found anew.
+#include "support/specimens.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace specimens;
+
+namespace {
+
+constexpr double dx = 0.01;
+
+Vector3 turned(const Vector3& x, const Vector3& centre, double angle)
+{
+    return centre + Eigen::AngleAxisd(angle, Vector3(1.0, 2.0, -0.5).normalized()) * (x - centre);
+}
+
+} // namespace
+
+TEST_CASE("a uniformly stressed block keeps its stress, turned with it, through many refreshes")
+{
+    const SymmetricTensor<double> initial{-4e3, -2e3, -3e3, 1e3, 0.5e3, -0.7e3};
+    const int steps = 60;
+    const double dt = 1e-3, total = 1.1; // rad
+    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
+        CAPTURE(state);
+        CAPTURE(influence);
+        Model model = from_positions(jittered(lattice(6, 6, 6, dx), dx, 0.1), dx);
+        find_first_families(model);
+        set_stress(model, [&](std::size_t, std::size_t) { return initial; });
+        model.update_records();
+        force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0}); // finds the active bonds
+        const std::vector<Vector3> start = model.points.position;
+        const Vector3 centre = dx * Vector3(3, 3, 3);
+        const Vector3 shift = Vector3(0.3, -0.2, 0.1) * dx;
+        for (int step = 1; step <= steps; ++step) {
+            for (std::size_t i = 0; i < model.size(); ++i) {
+                const Vector3 next = turned(start[i], centre, total * step / steps) + step * shift;
+                model.points.velocity[i] = (next - model.points.position[i]) / dt;
+                model.points.position[i] = next;
+            }
+            refresh_families(model, force);
+            force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, dt});
+        }
+        const Eigen::Matrix3d r = Eigen::AngleAxisd(total, Vector3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+        const Eigen::Matrix3d expected = r * matrix(initial) * r.transpose();
+        double worst = 0.0;
+        for (std::size_t i = 0; i < model.size(); ++i)
+            for (std::size_t b = 0; b < model.families[i].count; ++b) {
+                const auto v = [&](std::size_t c) { return bond_value(model, i, b, c); };
+                worst = std::max(worst, (matrix({v(0), v(1), v(2), v(3), v(4), v(5)}) - expected).norm());
+            }
+        CHECK(worst < 1e-10 * expected.norm());
+    });
+}
+
+TEST_CASE("a bond that stays keeps its own stress, a new bond takes the mean of its ends")
+{
+    Model model = from_positions(lattice(6, 6, 6, dx), dx);
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+    find_first_families(model);
+    set_stress(model, [](std::size_t i, std::size_t b) {
+        return SymmetricTensor<double>::isotropic(1000.0 * static_cast<double>(i) + static_cast<double>(b));
+    });
+    model.update_records();
+    force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
+    const Model before = model;
+    // one point moves by a spacing: some of its bonds die, some are born, those of the others stay
+    const std::size_t mover = (2 * 6 + 2) * 6 + 2;
+    model.points.position[mover] += Vector3(0.6, 0.5, 0.4) * dx;
+    std::vector<double> means = model.point_state;
+    mean_point_states(model, *force, means);
+    refresh_families(model, *force);
+    std::size_t kept = 0, born = 0;
+    Model old = before;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const FamilyView now = model.families[i];
+        const FamilyView then = old.families[i];
+        for (std::size_t b = 0; b < now.count; ++b) {
+            const std::uint32_t j = now.neighbours[b];
+            const auto* at = std::find(then.neighbours, then.neighbours + then.count, j);
+            const double stress = bond_value(model, i, b, 0);
+            if (at != then.neighbours + then.count) {
+                CHECK(stress == bond_value(old, i, static_cast<std::size_t>(at - then.neighbours), 0));
+                ++kept;
+            } else {
+                const double mean = 0.5 * (model.point_state[i * 6] + model.point_state[j * 6]);
+                CHECK(stress == doctest::Approx(mean).epsilon(1e-14));
+                ++born;
+            }
+        }
+    }
+    CHECK(born > 10);
+    CHECK(kept > 100 * born / 10);
+}
+
+TEST_CASE("the mean state of a point weighs its bonds by their shares")
+{
+    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
+        CAPTURE(state);
+        CAPTURE(influence);
+        Model model = from_positions(jittered(lattice(5, 5, 5, dx), dx, 0.2), dx);
+        find_first_families(model);
+        std::mt19937 generator(11);
+        std::uniform_real_distribution<double> value(-1.0, 1.0);
+        set_stress(model,
+                   [&](std::size_t, std::size_t) { return SymmetricTensor<double>::isotropic(value(generator)); });
+        set_velocity(model, [](const Vector3& x) { return x; }); // D = 1, so the power is V sum w tr(sigma)
+        force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
+        std::vector<double> means = model.point_state;
+        mean_point_states(model, force, means);
+        for (std::size_t i = 0; i < model.size(); ++i)
+            CHECK(3.0 * means[6 * i] ==
+                  doctest::Approx(model.stress_work[i] / model.points.volume[i]).epsilon(1e-9).scale(1.0));
+    });
+}

@@ -1,0 +1,442 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Output plugin "hdf5": the layout and every bit of it, complete files, resumed runs, the XDMF description.
+#include "made_up_run.hpp"
+#include "result_content.hpp"
+
+#include "support/errors.hpp"
+#include "support/plugins.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace {
+
+using namespace periporo;
+using test::content_of;
+using test::TemporaryFolder;
+
+std::map<std::string, std::string> whole_run(std::uint64_t last_step)
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), last_step);
+    return content_of(folder / "results.h5");
+}
+
+/// Compares name by name, so that a difference is told by its name.
+void check_same(const std::map<std::string, std::string>& found, const std::map<std::string, std::string>& expected)
+{
+    for (const auto& [name, value] : expected) {
+        INFO(name);
+        REQUIRE(found.contains(name));
+        CHECK((found.at(name) == value)); // parentheses: the values are not for printing
+    }
+    CHECK(found.size() == expected.size());
+}
+
+template <class Value>
+std::vector<Value> read(const H5::H5File& file, const std::string& name, const H5::PredType& type)
+{
+    const H5::DataSet dataset = file.openDataSet(name);
+    std::vector<Value> values(static_cast<std::size_t>(dataset.getSpace().getSimpleExtentNpoints()));
+    dataset.read(values.data(), type);
+    return values;
+}
+
+std::vector<double> reals(const H5::H5File& file, const std::string& name)
+{
+    return read<double>(file, name, H5::PredType::NATIVE_DOUBLE);
+}
+
+std::vector<std::int64_t> integers(const H5::H5File& file, const std::string& name)
+{
+    return read<std::int64_t>(file, name, H5::PredType::NATIVE_INT64);
+}
+
+std::vector<hsize_t> extent(const H5::H5File& file, const std::string& name)
+{
+    const H5::DataSpace space = file.openDataSet(name).getSpace();
+    std::vector<hsize_t> result(static_cast<std::size_t>(space.getSimpleExtentNdims()));
+    space.getSimpleExtentDims(result.data());
+    return result;
+}
+
+std::string text(const H5::H5Object& object, const std::string& attribute)
+{
+    std::string value;
+    const H5::Attribute opened = object.openAttribute(attribute);
+    opened.read(opened.getStrType(), value);
+    return value;
+}
+
+template <class Value>
+Value number(const H5::H5Object& object, const std::string& attribute, const H5::PredType& type)
+{
+    Value value{};
+    object.openAttribute(attribute).read(type, &value);
+    return value;
+}
+
+std::string text_dataset(const H5::H5File& file, const std::string& name)
+{
+    std::string value;
+    const H5::DataSet dataset = file.openDataSet(name);
+    dataset.read(value, dataset.getStrType());
+    return value;
+}
+
+/// The text between the quotes of `key="..."`.
+std::string xml_value(const std::string& element, const std::string& key)
+{
+    const std::size_t start = element.find(key + "=\"") + key.size() + 2;
+    return element.substr(start, element.find('"', start) - start);
+}
+
+std::string file_text(const std::filesystem::path& path)
+{
+    std::ifstream stream(path, std::ios::binary);
+    REQUIRE(stream.is_open());
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+} // namespace
+
+TEST_CASE("positions and fields come back bit by bit, with their shape, unit and description")
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 10);
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    const std::size_t n = test::made_up_points;
+    CHECK(reals(file, "/snapshots/000001/position") == test::made_up_values(10, 3 * n, 100));
+    CHECK(extent(file, "/snapshots/000001/position") == std::vector<hsize_t>{n, 3});
+    CHECK(reals(file, "/snapshots/000001/velocity") == test::made_up_values(10, 3 * n, 200));
+    CHECK(extent(file, "/snapshots/000001/velocity") == std::vector<hsize_t>{n, 3});
+    CHECK(reals(file, "/snapshots/000001/plastic_shear_strain") == test::made_up_values(10, n, 300));
+    CHECK(extent(file, "/snapshots/000001/plastic_shear_strain") == std::vector<hsize_t>{n});
+    CHECK(reals(file, "/snapshots/000001/effective_stress") == test::made_up_values(10, 6 * n, 400));
+    CHECK(extent(file, "/snapshots/000001/effective_stress") == std::vector<hsize_t>{n, 6});
+    CHECK(integers(file, "/snapshots/000001/family_size").at(7) == 10 * 1000 + 7 - 5);
+    const H5::DataSet stress = file.openDataSet("/snapshots/000001/effective_stress");
+    CHECK(text(stress, "unit") == "Pa");
+    CHECK(text(stress, "description") == "Tension-positive; xx yy zz xy yz xz");
+    CHECK(text(file.openDataSet("/snapshots/000001/position"), "unit") == "m");
+}
+
+TEST_CASE("each snapshot says its step, time and stage")
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 20);
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    REQUIRE(file.openGroup("/snapshots").getNumObjs() == 3);
+    const H5::Group last = file.openGroup("/snapshots/000002");
+    CHECK(number<std::int64_t>(last, "step", H5::PredType::NATIVE_INT64) == 20);
+    CHECK(number<double>(last, "time", H5::PredType::NATIVE_DOUBLE) == test::made_up_time(20));
+    CHECK(text(last, "stage") == "collapse");
+    CHECK(text(file.openGroup("/snapshots/000000"), "stage") == "geostatic");
+}
+
+TEST_CASE("the root says what the file is, and the provenance is there entry by entry")
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 0);
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    const RunDescription run = test::made_up_run(folder.path());
+    CHECK(text(file, "format") == "periporo results");
+    CHECK(number<std::int64_t>(file, "format_version", H5::PredType::NATIVE_INT64) == 1);
+    CHECK(number<std::int64_t>(file, "complete", H5::PredType::NATIVE_INT64) == 1);
+    CHECK(text(file, "title") == run.title);
+    CHECK(text_dataset(file, "/provenance/resolved_case") == run.resolved_case);
+    CHECK(text_dataset(file, "/provenance/version") == "0.1.0");
+    CHECK(text_dataset(file, "/provenance/plugin geometry_box") == "sha256 0123"); // a name holds no slash
+}
+
+TEST_CASE("the history comes back bit by bit, column by column, however many rows there are")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(folder.path()));
+    const std::uint64_t rows = 2500; // more than the writer keeps, more than a chunk holds, and no multiple of either
+    for (std::uint64_t step = 0; step < rows; ++step)
+        writer->history(3 * step, test::made_up_row(step));
+    writer->finish(true);
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    const std::vector<std::int64_t> steps = integers(file, "/history/step");
+    const std::vector<double> time = reals(file, "/history/time");
+    const std::vector<double> energy = reals(file, "/history/kinetic_energy");
+    const std::vector<double> grains = reals(file, "/history/free_grains");
+    REQUIRE(steps.size() == rows);
+    REQUIRE(time.size() == rows);
+    REQUIRE(energy.size() == rows);
+    REQUIRE(grains.size() == rows);
+    bool same = true;
+    for (std::uint64_t i = 0; i < rows; ++i)
+        same = same && steps[i] == static_cast<std::int64_t>(3 * i) &&
+               std::vector<double>{time[i], energy[i], grains[i]} == test::made_up_row(i);
+    CHECK(same);
+    CHECK(text(file.openDataSet("/history/kinetic_energy"), "unit") == "J");
+    CHECK(text(file.openDataSet("/history/kinetic_energy"), "description") == "Kinetic energy of all points");
+}
+
+TEST_CASE("while running the part is readable after every snapshot, and only finishing gives the file its name")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(folder.path()));
+    for (std::uint64_t snapshots = 1; snapshots <= 3; ++snapshots) {
+        test::give_steps(*writer, 10 * (snapshots - 1) + 1, 10 * snapshots);
+        const H5::H5File file((folder / "results.h5.part").string(), H5F_ACC_RDONLY);
+        CHECK(file.openGroup("/snapshots").getNumObjs() == snapshots);
+        CHECK(integers(file, "/history/step").back() == static_cast<std::int64_t>(10 * snapshots));
+        CHECK(number<std::int64_t>(file, "complete", H5::PredType::NATIVE_INT64) == 0);
+    }
+    CHECK_FALSE(std::filesystem::exists(folder / "results.h5"));
+    writer->finish(false);
+    CHECK_FALSE(std::filesystem::exists(folder / "results.h5.part"));
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    CHECK(number<std::int64_t>(file, "complete", H5::PredType::NATIVE_INT64) == 0);
+}
+
+TEST_CASE("after a flush every row given so far is in the file")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(folder.path()));
+    test::give_steps(*writer, 1, 4); // no snapshot among them
+    writer->flush();
+    const H5::H5File file((folder / "results.h5.part").string(), H5F_ACC_RDONLY);
+    CHECK(integers(file, "/history/step") == std::vector<std::int64_t>{1, 2, 3, 4});
+}
+
+TEST_CASE("somebody who has locked the part while looking at it does not stop the run")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(folder.path()));
+    const int descriptor = ::open((folder / "results.h5.part").c_str(), O_RDONLY);
+    REQUIRE(::flock(descriptor, LOCK_SH | LOCK_NB) == 0);
+    CHECK_NOTHROW(test::give_steps(*writer, 0, 10));
+    ::close(descriptor);
+    writer->finish(true);
+}
+
+TEST_CASE("a run that was stopped and resumed leaves the same file as one that never stopped")
+{
+    const TemporaryFolder folder;
+    const auto first = test::output("hdf5");
+    first->begin(test::made_up_run(folder.path()));
+    test::give_steps(*first, 0, 40);
+    first->finish(false);
+    const auto second = test::output("hdf5");
+    second->begin(test::resumed_run(folder.path(), 40));
+    test::give_steps(*second, 41, 60);
+    second->finish(true);
+    check_same(content_of(folder / "results.h5"), whole_run(60));
+    CHECK_FALSE(std::filesystem::exists(folder / "results.h5.part"));
+}
+
+TEST_CASE("after a kill the run goes on from its checkpoint and leaves the same file")
+{
+    const TemporaryFolder running;
+    const TemporaryFolder killed;
+    const auto first = test::output("hdf5");
+    first->begin(test::made_up_run(running.path()));
+    test::give_steps(*first, 0, 33);
+    first->flush(); // the checkpoint of step 33
+    test::give_steps(*first, 34, 57);
+    // The files as a kill at this moment would leave them, with snapshots and rows after the checkpoint.
+    std::filesystem::copy(running / "results.h5.part", killed / "results.h5.part");
+    const auto second = test::output("hdf5");
+    second->begin(test::resumed_run(killed.path(), 33));
+    test::give_steps(*second, 34, 60);
+    second->finish(true);
+    check_same(content_of(killed / "results.h5"), whole_run(60));
+}
+
+TEST_CASE("the XDMF of a resumed run is that of one that never stopped")
+{
+    const TemporaryFolder whole;
+    test::write_whole_run(*test::output("hdf5"), whole.path(), 40);
+    const TemporaryFolder folder;
+    const auto first = test::output("hdf5");
+    first->begin(test::made_up_run(folder.path()));
+    test::give_steps(*first, 0, 20);
+    first->finish(false);
+    const auto second = test::output("hdf5");
+    second->begin(test::resumed_run(folder.path(), 20));
+    test::give_steps(*second, 21, 40);
+    second->finish(true);
+    CHECK(file_text(folder / "results.xdmf") == file_text(whole / "results.xdmf"));
+}
+
+TEST_CASE("a run cannot be resumed without its file, from a file of another kind, or with other columns")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("hdf5");
+    test::check_mentions(test::message_of_error([&] { writer->begin(test::resumed_run(folder.path(), 1)); }),
+                         {"cannot resume", (folder / "results.h5").string()});
+    std::ofstream(folder / "results.h5.part") << "no HDF5";
+    test::check_mentions(test::message_of_error([&] { writer->begin(test::resumed_run(folder.path(), 1)); }),
+                         {"cannot resume", (folder / "results.h5.part").string()});
+    std::filesystem::remove(folder / "results.h5.part");
+    H5::H5File((folder / "results.h5").string(), H5F_ACC_TRUNC).close();
+    test::check_mentions(test::message_of_error([&] { writer->begin(test::resumed_run(folder.path(), 1)); }),
+                         {"cannot resume", "no result file of format version 1"});
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 10);
+    RunDescription run = test::resumed_run(folder.path(), 10);
+    run.history.pop_back();
+    test::check_mentions(test::message_of_error([&] { writer->begin(run); }),
+                         {"cannot resume", "its history is free_grains, kinetic_energy, step, time"});
+}
+
+TEST_CASE("only the fields asked for are stored, positions always")
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5", {{"fields", std::vector<std::string>{"velocity"}}}), folder.path(), 0);
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    const H5::Group snapshot = file.openGroup("/snapshots/000000");
+    CHECK(snapshot.getNumObjs() == 2);
+    CHECK(snapshot.nameExists("position"));
+    CHECK(snapshot.nameExists("velocity"));
+}
+
+TEST_CASE("a field that does not exist is an error with the names of those that do")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("hdf5", {{"fields", std::vector<std::string>{"speed"}}});
+    writer->begin(test::made_up_run(folder.path()));
+    test::check_mentions(test::message_of_error([&] { test::give_snapshot(*writer, 0); }),
+                         {"\"speed\"", "velocity, plastic_shear_strain, effective_stress, family_size"});
+}
+
+TEST_CASE("compression changes the size of the file and not its content")
+{
+    const auto whole = [](std::int64_t level, std::uintmax_t& size) {
+        const TemporaryFolder folder;
+        const auto writer = test::output("hdf5", {{"compression", level}});
+        writer->begin(test::made_up_run(folder.path()));
+        const std::vector<double> positions(3 * 10000, 1.0);
+        Snapshot snapshot;
+        snapshot.positions = positions;
+        writer->snapshot(snapshot);
+        writer->finish(true);
+        size = std::filesystem::file_size(folder / "results.h5");
+        return content_of(folder / "results.h5");
+    };
+    std::uintmax_t plain_size = 0;
+    std::uintmax_t packed_size = 0;
+    const auto plain = whole(0, plain_size);
+    const auto packed = whole(9, packed_size);
+    check_same(packed, plain);
+    CHECK(plain_size > 3 * 10000 * sizeof(double));
+    CHECK(packed_size < plain_size / 5); // 30,000 equal numbers
+}
+
+TEST_CASE("a snapshot without points is stored as such")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(folder.path()));
+    test::give_snapshot(*writer, 0, 0);
+    writer->finish(true);
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    CHECK(extent(file, "/snapshots/000000/position") == std::vector<hsize_t>{0, 3});
+}
+
+TEST_CASE("a new run leaves an earlier result alone until it is finished")
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 30);
+    const auto earlier = content_of(folder / "results.h5");
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(folder.path()));
+    test::give_steps(*writer, 0, 10);
+    check_same(content_of(folder / "results.h5"), earlier);
+    writer->finish(true);
+    check_same(content_of(folder / "results.h5"), whole_run(10));
+}
+
+TEST_CASE("a run that ends by an error leaves the rows given so far")
+{
+    const TemporaryFolder folder;
+    {
+        const auto writer = test::output("hdf5");
+        writer->begin(test::made_up_run(folder.path()));
+        test::give_steps(*writer, 1, 5);
+    }
+    const H5::H5File file((folder / "results.h5.part").string(), H5F_ACC_RDONLY);
+    CHECK(integers(file, "/history/step") == std::vector<std::int64_t>{1, 2, 3, 4, 5});
+}
+
+TEST_CASE("a directory that cannot be written is an error with the path and the reason")
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "file") << "not a directory";
+    const auto writer = test::output("hdf5");
+    test::check_mentions(test::message_of_error([&] { writer->begin(test::made_up_run(folder / "file")); }),
+                         {(folder / "file" / "results.h5").string(), "Not a directory"});
+}
+
+TEST_CASE("every dataset that the XDMF names is in the result file, with the size and the type it says")
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 20);
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    const std::string xdmf = file_text(folder / "results.xdmf");
+    std::size_t items = 0;
+    for (std::size_t at = xdmf.find("<DataItem "); at != std::string::npos; at = xdmf.find("<DataItem ", at + 1)) {
+        const std::string item = xdmf.substr(at, xdmf.find("</DataItem>", at) - at);
+        const std::string place = item.substr(item.find('>') + 1); // "results.h5:/snapshots/..."
+        INFO(item);
+        REQUIRE(place.starts_with("results.h5:/"));
+        const std::string name = place.substr(place.find('/'));
+        CHECK(xml_value(item, "Dimensions") == fmt::format("{}", fmt::join(extent(file, name), " ")));
+        const bool is_integer = file.openDataSet(name).getTypeClass() == H5T_INTEGER;
+        CHECK(xml_value(item, "NumberType") == (is_integer ? "Int" : "Float"));
+        ++items;
+    }
+    // In each of three snapshots: the vertices, the positions and the four fields.
+    CHECK(items == 3 * (1 + 1 + 4));
+}
+
+TEST_CASE("the XDMF lists every point as a vertex and gives the time of every snapshot")
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 10);
+    const std::string xdmf = file_text(folder / "results.xdmf");
+    const std::string points = std::to_string(test::made_up_points);
+    CHECK(xdmf.find("TopologyType=\"Polyvertex\" NumberOfElements=\"" + points + "\"") != std::string::npos);
+    const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    std::vector<std::int64_t> expected(test::made_up_points);
+    std::iota(expected.begin(), expected.end(), 0);
+    CHECK(integers(file, "/vertices/" + points) == expected);
+    const std::size_t first = xdmf.find("<Time Value=\"-0.7\"/>"); // made_up_time(0)
+    const std::size_t second = xdmf.find("<Time Value=\"0.3\"/>"); // made_up_time(10)
+    CHECK(first < second);
+    CHECK(second != std::string::npos);
+    CHECK(xdmf.find("<Time ", second + 1) == std::string::npos);
+}
+
+TEST_CASE("the XDMF gives each field the type of its components")
+{
+    const TemporaryFolder folder;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 0);
+    const std::string xdmf = file_text(folder / "results.xdmf");
+    for (const auto& [name, type] : {std::pair{"velocity", "Vector"},
+                                     {"plastic_shear_strain", "Scalar"},
+                                     {"family_size", "Scalar"},
+                                     {"effective_stress", "Matrix"}})
+        CHECK(xdmf.find(fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">", name, type)) !=
+              std::string::npos);
+}

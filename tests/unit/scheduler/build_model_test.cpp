@@ -1,0 +1,97 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// From a case to a model.
+#include "case/reader.hpp"
+#include "operator/refresh.hpp"
+#include "scheduler/build_model.hpp"
+#include "support/plugins.hpp"
+#include "support/specimens.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace periporo;
+
+namespace {
+
+CaseDescription quickstart(const std::vector<std::string>& overrides = {})
+{
+    PluginRegistry registry;
+    return read_case(PERIPORO_SOURCE_DIR "/cases/column_collapse/quickstart.toml",
+                     {overrides, {PERIPORO_BUILD_DIR "/lib/periporo"}}, registry);
+}
+
+BuiltModel built(const CaseDescription& description)
+{
+    return build_model(description, periporo::test::built_plugins());
+}
+
+} // namespace
+
+TEST_CASE("the quickstart is 10 x 10 x 12 points that weigh rho_s (1 - phi) times the volume")
+{
+    const BuiltModel model = built(quickstart());
+    CHECK(model.model.size() == 1200);
+    double mass = 0.0;
+    for (const double m : model.model.points.mass)
+        mass += m;
+    CHECK(mass == doctest::Approx(2200.0 * 0.8 * 0.1 * 0.1 * 0.12).epsilon(1e-12));
+}
+
+TEST_CASE("water in the pores counts in the mass: rho = rho_s (1 - phi) + S_r phi rho_w")
+{
+    const BuiltModel model = built(quickstart({"body.column.suction=10 kPa", "body.column.saturation=0.5"}));
+    const Points& points = model.model.points;
+    CHECK(points.mass[0] / points.volume[0] == doctest::Approx(2200.0 * 0.8 + 0.5 * 0.2 * 1000.0).epsilon(1e-12));
+}
+
+TEST_CASE("a body behind a symmetry plane is cut, and the remark says so")
+{
+    const BuiltModel model = built(quickstart({"body.column.geometry.size=[\"200 mm\", \"100 mm\", \"120 mm\"]",
+                                               "body.column.geometry.origin=[\"-100 mm\", \"0 mm\", \"0 mm\"]"}));
+    CHECK(model.model.size() == 1200);
+    REQUIRE(model.remarks.size() == 1);
+    CHECK(model.remarks[0].find("1200 of 2400") != std::string::npos);
+}
+
+TEST_CASE("every point is in the model once, whatever the order along the curve")
+{
+    const BuiltModel model = built(quickstart());
+    CHECK(std::set<std::int64_t>(model.model.points.id.begin(), model.model.points.id.end()).size() == 1200);
+}
+
+TEST_CASE("geostatic stress of a bond is that at the depth of its middle, with K0 across, minus the pore part")
+{
+    const double suction = 10e3, saturation = 0.02, k0 = 0.53;
+    const CaseDescription description = quickstart({"body.column.suction=10 kPa", "body.column.saturation=0.02"});
+    BuiltModel made = built(description);
+    Model& model = made.model;
+    model.isometries.set_generators(image_generators(description, description.stages[0]));
+    find_first_families(model);
+    set_initial_stress(model, description);
+    const double density = model.points.mass[0] / model.points.volume[0];
+    for (const std::size_t i : {std::size_t{0}, std::size_t{600}, std::size_t{1199}})
+        for (std::size_t b = 0; b < model.families[i].count; ++b) {
+            const std::uint32_t j = model.families[i].neighbours[b];
+            const double z = 0.5 * (model.points.position[i].z() + model.records[j].position[2]);
+            const double vertical = -density * 9.81 * (0.12 - z) - saturation * suction;
+            CHECK(specimens::bond_value(model, i, b, 2) == doctest::Approx(vertical).epsilon(1e-12));
+            CHECK(specimens::bond_value(model, i, b, 0) == doctest::Approx(k0 * vertical).epsilon(1e-12));
+            CHECK(specimens::bond_value(model, i, b, 3) == 0.0);
+        }
+}
+
+TEST_CASE("cylindrical rollers hold the radial direction of the outer ring only")
+{
+    const CaseDescription description = quickstart({"stage.0.rollers=[\"r = 100 mm\"]"});
+    BuiltModel made = built(description);
+    const std::vector<HeldDirection> held = held_by_rollers(made.model, description.stages[0]);
+    CHECK(!held.empty());
+    for (const HeldDirection& h : held) {
+        const Vector3& x = made.model.points.position[h.point];
+        CHECK(std::hypot(x.x(), x.y()) > 0.09);
+        CHECK(h.direction.dot(Vector3(x.x(), x.y(), 0.0).normalized()) == doctest::Approx(1.0));
+    }
+}

@@ -1,0 +1,181 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Contact in motion against closed forms.
+#include "contact/rigid_plane/rigid_plane.hpp"
+#include "contact/short_range/short_range.hpp"
+#include "support/specimens.hpp"
+#include "time/dynamics.hpp"
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+using namespace specimens;
+
+namespace {
+
+constexpr double dx = 0.01;
+
+Parameters law_parameters(double stiffness, double friction)
+{
+    Parameters parameters;
+    parameters.set("stiffness", stiffness);
+    parameters.set("friction", friction);
+    parameters.set("restitution", 1.0);
+    return parameters;
+}
+
+/// Two grains of different bodies on a line, too few for a family.
+Model two_grains(double gap)
+{
+    Model model = from_positions({{0.0, 0.0, 0.0}, {gap, 0.0, 0.0}}, dx);
+    model.bodies.push_back(model.bodies.front());
+    model.points.body[1] = 1;
+    model.points.mass[1] *= 3.0;
+    find_first_families(model);
+    return model;
+}
+
+ContactForces short_range(double stiffness, double friction, const Model& model)
+{
+    const auto law = std::make_shared<ShortRange>(law_parameters(stiffness, friction));
+    law->scale({model.spacing, model.horizon});
+    return ContactForces({{law, {0, 1}}});
+}
+
+Parameters plane_parameters(double stiffness, double friction, const Vector3& normal)
+{
+    Parameters parameters = law_parameters(stiffness, friction);
+    parameters.set("point", std::vector<double>{0.0, 0.0, 0.0});
+    parameters.set("normal", std::vector<double>{normal.x(), normal.y(), normal.z()});
+    return parameters;
+}
+
+/// A grain resting on a plane inclined about y by `angle`, gravity vertical; returns its travel down the slope.
+double travel_on_incline(double angle, double friction, double time, double& speed)
+{
+    const Vector3 normal(std::sin(angle), 0.0, std::cos(angle));
+    const Vector3 down(std::cos(angle), 0.0, -std::sin(angle));
+    const double stiffness = 2e4, g = 9.81;
+    Model model = from_positions({Vector3::Zero()}, dx);
+    const double weight = model.points.mass[0] * g;
+    const auto law = std::make_shared<RigidPlane>(plane_parameters(stiffness, friction, normal));
+    law->scale({model.spacing, model.horizon});
+    // where the normal force balances its part of the weight
+    model.points.position[0] = normal * (law->cutoff() - weight * std::cos(angle) / stiffness);
+    model.gravity = Vector3(0.0, 0.0, -g);
+    find_first_families(model);
+    ContactForces contact({{law, {0}}});
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+    Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
+    const Vector3 start = model.points.position[0];
+    dynamics.start();
+    const double dt = 1e-4;
+    for (int step = 0; step < static_cast<int>(std::lround(time / dt)); ++step)
+        dynamics.step({dt, MaterialResponse::full, 0.0});
+    speed = model.points.velocity[0].dot(down);
+    return (model.points.position[0] - start).dot(down);
+}
+
+} // namespace
+
+TEST_CASE("two grains collide in half a sine: duration pi/omega, deepest overlap v/omega, restitution 1")
+{
+    const double k = 500.0, v = 0.3;
+    Model model = two_grains(0.8 * dx);
+    ContactForces contact = short_range(k, 0.0, model);
+    const double m0 = model.points.mass[0], m1 = model.points.mass[1];
+    const double omega = std::sqrt(k * (m0 + m1) / (m0 * m1));
+    model.points.velocity = {Vector3(v, 0, 0), Vector3::Zero()};
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+    Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
+    dynamics.start();
+    dynamics.open_ledger();
+    const double dt = 1e-3 * std::numbers::pi / omega;
+    double deepest = 0.0;
+    int steps = 0;
+    double gap = 0.8 * dx;
+    while (steps == 0 || gap < 0.8 * dx) {
+        dynamics.step({dt, MaterialResponse::full, 0.0});
+        gap = model.points.position[1].x() - model.points.position[0].x();
+        deepest = std::max(deepest, 0.8 * dx - gap);
+        REQUIRE(++steps < 2000);
+    }
+    // Verlet is of second order: omega dt = pi/1000 gives 1e-6, and the end is seen within one step
+    CHECK(std::abs(steps - 1000) <= 2);
+    CHECK(deepest == doctest::Approx(v / omega).epsilon(1e-5));
+    const double after = model.points.velocity[1].x() - model.points.velocity[0].x();
+    CHECK(after == doctest::Approx(v).epsilon(1e-5));
+    CHECK(m0 * model.points.velocity[0].x() + m1 * model.points.velocity[1].x() ==
+          doctest::Approx(m0 * v).epsilon(1e-13));
+    CHECK(std::abs(dynamics.ledger().error()) < 1e-5 * 0.5 * m0 * v * v);
+}
+
+TEST_CASE("friction between two grains takes momentum from one and gives it to the other")
+{
+    Model model = two_grains(0.7 * dx);
+    ContactForces contact = short_range(500.0, 0.4, model);
+    model.points.velocity = {Vector3(0, 0.2, 0), Vector3(0, -0.1, 0.05)};
+    const Vector3 before =
+        model.points.mass[0] * model.points.velocity[0] + model.points.mass[1] * model.points.velocity[1];
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+    Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
+    dynamics.start();
+    dynamics.open_ledger();
+    for (int step = 0; step < 200; ++step)
+        dynamics.step({1e-5, MaterialResponse::full, 0.0});
+    const Vector3 after =
+        model.points.mass[0] * model.points.velocity[0] + model.points.mass[1] * model.points.velocity[1];
+    CHECK((after - before).norm() < 1e-14 * model.points.mass[1]);
+    CHECK(dynamics.ledger().friction > 0.0);
+}
+
+TEST_CASE("a block slides down an incline with g (sin a - mu cos a)")
+{
+    const double angle = 0.6, mu = 0.3, time = 0.2;
+    double speed = 0.0;
+    const double travel = travel_on_incline(angle, mu, time, speed);
+    const double a = 9.81 * (std::sin(angle) - mu * std::cos(angle));
+    // friction acts from the first step on: the first half kick is without it, half a step of g sin a
+    CHECK(speed == doctest::Approx(a * time).epsilon(1e-3));
+    CHECK(travel == doctest::Approx(0.5 * a * time * time).epsilon(1e-3));
+}
+
+TEST_CASE("a block sticks below the angle of friction, to round-off, and slides just above it")
+{
+    const double mu = 0.5;
+    double speed = 0.0;
+    // The first half kick comes before friction and gives v = g sin a dt/2; mu g cos a - g sin a then brakes it.
+    const double angle = std::atan(mu) - 0.01, g = 9.81, dt = 1e-4;
+    const double start = 0.5 * dt * g * std::sin(angle);
+    const double braked = start * start / (2.0 * g * (mu * std::cos(angle) - std::sin(angle)));
+    CHECK(travel_on_incline(angle, mu, 0.5, speed) == doctest::Approx(braked).epsilon(0.1));
+    CHECK(std::abs(speed) < 1e-12);
+    CHECK(travel_on_incline(std::atan(mu) + 0.01, mu, 0.5, speed) > 0.01);
+}
+
+TEST_CASE("a grain that comes loose among others starts without contact force")
+{
+    // a compact cluster of three points: too few for a sub-horizon, so all are free, closer than the cut-off 0.8 dx
+    Model model = from_positions({{0, 0, 0}, {0.5 * dx, 0, 0}, {0, 0.45 * dx, 0}}, dx);
+    find_first_families(model);
+    const auto law = std::make_shared<ShortRange>(law_parameters(500.0, 0.0));
+    law->scale({model.spacing, model.horizon});
+    ContactForces contact({{law, {0, 0}}});
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+    Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
+    dynamics.start();
+    dynamics.open_ledger();
+    CHECK(contact.energy() == 0.0);
+    // pushed together they repel, and give back what was put in
+    model.points.velocity[1] = Vector3(-0.05, 0, 0);
+    dynamics.open_ledger();
+    double stored = 0.0;
+    for (int step = 0; step < 4000; ++step) {
+        dynamics.step({1e-5, MaterialResponse::full, 0.0});
+        stored = std::max(stored, dynamics.ledger().contact);
+    }
+    CHECK(stored > 0.3 * dynamics.ledger().opening);
+    CHECK(std::abs(dynamics.ledger().error()) < 1e-3 * dynamics.ledger().opening);
+}

@@ -1,0 +1,76 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The estimate of the largest frequency and the step that follows.
+#include "support/specimens.hpp"
+#include "time/dynamics.hpp"
+#include "time/stable_step.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <doctest/doctest.h>
+
+using namespace specimens;
+
+namespace {
+
+constexpr double dx = 0.01;
+
+/// Largest omega^2 from the whole matrix, column by column.
+double dense_frequency(Model& model, const ForceState& force)
+{
+    const auto n = static_cast<Eigen::Index>(3 * model.size());
+    Eigen::MatrixXd k(n, n);
+    for (Eigen::Index c = 0; c < n; ++c) {
+        for (std::size_t i = 0; i < model.size(); ++i)
+            model.points.velocity[i] = Vector3::Zero();
+        model.points.velocity[static_cast<std::size_t>(c / 3)][c % 3] = 1.0;
+        model.update_records();
+        force.evaluate(model, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
+        for (Eigen::Index r = 0; r < n; ++r)
+            k(r, c) = -model.internal_force[static_cast<std::size_t>(r / 3)][r % 3] / model.points.mass[0];
+    }
+    return std::sqrt(k.eigenvalues().real().maxCoeff());
+}
+
+} // namespace
+
+TEST_CASE("power iteration finds the largest frequency of the dense operator")
+{
+    for (const char* state : {"energy_conjugate", "bond_projection"}) {
+        CAPTURE(state);
+        Model model = from_positions(jittered(lattice(4, 4, 5, dx), dx, 0.1), dx);
+        find_first_families(model);
+        const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
+        const double exact = dense_frequency(model, *force);
+        FrequencyEstimate estimate;
+        const double found = estimate.update(model, *force, 60);
+        CHECK(found <= exact * (1.0 + 1e-9)); // a Rayleigh quotient comes from below
+        CHECK(found > 0.97 * exact);
+    }
+}
+
+TEST_CASE("an elastic block is stable at the step the estimate allows and not at 1.1 times 2/omega")
+{
+    const auto grows = [](double factor) {
+        Model model = from_positions(lattice(5, 5, 5, dx), dx);
+        find_first_families(model);
+        const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+        FrequencyEstimate estimate;
+        const double omega = estimate.update(model, *force, 200);
+        for (std::size_t i = 0; i < model.size(); ++i) // start in the highest mode
+            model.points.velocity[i] = 1e-9 * estimate.mode()[i] / (estimate.mode()[0].norm() + 1e-30);
+        ContactForces contact({});
+        Dynamics dynamics(model, *force, contact, {1e9, false});
+        dynamics.start();
+        dynamics.open_ledger();
+        const double first = dynamics.mean_speed();
+        double largest = 0.0;
+        for (int step = 0; step < 60; ++step) {
+            dynamics.step({factor * 2.0 / omega, MaterialResponse::full, 0.0});
+            largest = std::max(largest, dynamics.mean_speed());
+        }
+        return largest > 10.0 * first;
+    };
+    CHECK_FALSE(grows(0.95));
+    CHECK(grows(1.1));
+}
