@@ -74,6 +74,7 @@ void Dynamics::sum_forces(const StepOptions& options)
     using Approach = ContactForces::Approach;
     contact_.add_reactions(model_, options.time_step, options.local_damping > 0.0 ? Approach::none : Approach::real,
                            points.force);
+    contact_.add_surface_friction(model_, options.time_step, points.force);
     apply_held(points.force);
     double unbalanced = 0.0;
     double weight = 0.0;
@@ -82,15 +83,15 @@ void Dynamics::sum_forces(const StepOptions& options)
         weight += points.mass[i] * points.mass[i] * model_.gravity.squaredNorm();
     }
     state_.residual = weight > 0.0 ? std::sqrt(unbalanced / weight) : 0.0;
-    if (options.local_damping > 0.0)
+    if (options.local_damping > 0.0) {
         for (std::size_t i = 0; i < n; ++i)
             for (Eigen::Index c = 0; c < 3; ++c) {
                 const double v = points.velocity[i][c];
                 const double f = points.force[i][c];
                 points.force[i][c] -= options.local_damping * std::abs(f) * static_cast<double>((v > 0.0) - (v < 0.0));
             }
-    contact_.add_surface_friction(model_, options.time_step, points.force);
-    apply_held(points.force);
+        apply_held(points.force);
+    }
 }
 
 void Dynamics::apply_held(std::vector<Vector3>& vectors) const

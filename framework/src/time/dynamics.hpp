@@ -62,7 +62,7 @@ public:
     const State& state() const { return state_; }
     void restore(const State& state) { state_ = state; }
 
-    /// |internal + contact + gravity force|/|gravity force|, root sums over all points, without damping. [-]
+    /// |internal + contact + friction + gravity force|/|gravity force|, root sums over all points, without damping. [-]
     double residual() const { return state_.residual; }
     /// sqrt(2 E_kin/m) over all points [m/s].
     double mean_speed() const;
