@@ -36,7 +36,7 @@ TableRules time_rules()
     return {{Parameter::real("safety", dimension::none, "Factor on the stable time step")
                  .above(0.0)
                  .at_most(1.0)
-                 .by_default(0.9),
+                 .by_default(0.7),
              Parameter::real("step", dimension::time, "Fixed time step instead of the computed one")
                  .above(0.0)
                  .optional()}};
