@@ -16,7 +16,7 @@ from periporo_tools.clusters import heaviest_component
 from periporo_tools.results import Snapshot
 
 LINK = 1.5  # points closer than this many spacings hang together: past the edge (1) and face diagonal (1.41) of a cell
-REST = 0.01  # at rest: root-mean-square speed below this share of (g h0)^(1/2)
+REST = 0.03  # at rest: root-mean-square speed below this share of (g h0)^(1/2); 0.05 per cent of the energy m g h0
 
 
 @dataclass(frozen=True)
