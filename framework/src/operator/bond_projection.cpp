@@ -74,6 +74,23 @@ void gather(const Model& model, std::size_t point, const FamilyView& family, con
     }
 }
 
+/// Calls visit(point, family, workspace) for every point, in parallel, with its family gathered.
+template <class Visit>
+void for_every_family(const Model& model, const Influence& influence, Visit&& visit)
+{
+#pragma omp parallel
+    {
+        Workspace w;
+#pragma omp for schedule(dynamic, 32)
+        for (std::size_t i = 0; i < model.size(); ++i) {
+            const FamilyView family = model.families[i];
+            w.reserve(family.packs);
+            gather(model, i, family, influence, w);
+            visit(i, family, w);
+        }
+    }
+}
+
 struct BondGeometry {
     Pack x, y, z;    ///< zeta
     Pack nx, ny, nz; ///< zeta/|zeta|^2
@@ -140,9 +157,9 @@ PointKinematics point_kinematics(const FamilyView& family, const Workspace& w)
     return point;
 }
 
-/// Active lanes and 1/w0 of a point, once the soundness of all points is known.
-void find_activity(Model& model, const std::vector<PointKinematics>& points, std::size_t i, const Influence& influence,
-                   double& reciprocal_weight)
+/// Finds the active bonds of a point and returns 1/w0, once the soundness of all points is known.
+double find_activity(Model& model, const std::vector<PointKinematics>& points, std::size_t i,
+                     const Influence& influence)
 {
     const FamilyView family = model.families[i];
     double weight = 0.0;
@@ -166,9 +183,9 @@ void find_activity(Model& model, const std::vector<PointKinematics>& points, std
         }
         model.bonds.active[family.first_pack + p] = bits;
     }
-    reciprocal_weight = weight > 0.0 ? 1.0 / weight : 0.0;
     model.inactive_bonds[i] = static_cast<std::uint32_t>(family.count) - active;
     model.free_grain[i] = active == 0 ? 1 : 0;
+    return weight > 0.0 ? 1.0 / weight : 0.0;
 }
 
 /// S_ij = omega (1/w0_i + 1/w0_j) of a pack, zero where inactive.
@@ -279,68 +296,32 @@ void BondProjectionForceState::evaluate(Model& model, const Evaluation& evaluati
     const std::size_t n = model.size();
     FirstFailure failure;
     std::vector<PointKinematics> points(n + model.families.images().size());
-#pragma omp parallel
-    {
-        Workspace w;
-#pragma omp for schedule(dynamic, 32)
-        for (std::size_t i = 0; i < n; ++i) {
-            const FamilyView family = model.families[i];
-            w.reserve(family.packs);
-            gather(model, i, family, influence(), w);
-            points[i] = point_kinematics(family, w);
-        }
-    }
+    for_every_family(model, influence(), [&](std::size_t i, const FamilyView& family, Workspace& w) {
+        points[i] = point_kinematics(family, w);
+    });
     update_images(model, points);
 #pragma omp parallel for schedule(dynamic, 32)
-    for (std::size_t i = 0; i < n; ++i) {
-        double reciprocal_weight = 0.0;
-        find_activity(model, points, i, influence(), reciprocal_weight);
-        points[i].reciprocal_weight = reciprocal_weight;
-    }
+    for (std::size_t i = 0; i < n; ++i)
+        points[i].reciprocal_weight = find_activity(model, points, i, influence());
     update_images(model, points);
-#pragma omp parallel
-    {
-        Workspace w;
-#pragma omp for schedule(dynamic, 32)
-        for (std::size_t i = 0; i < n; ++i) {
-            const FamilyView family = model.families[i];
-            w.reserve(family.packs);
-            gather(model, i, family, influence(), w);
-            bond_gradients(model, points, i, family, w);
-            const MaterialStatus status = update_bond_stress(model, i, evaluation, w.stress);
-            if (!status.converged)
-                failure.report(i, status);
-            points[i].moment = stress_sums(model, points, i, family, w) * points[i].inverse_shape;
-
-            double work = 0.0;
-            double dilation = 0.0;
-            for (std::size_t p = 0; p < family.packs; ++p) {
-                const BondGeometry g = geometry(w, p * pack_width);
-                const Pack share =
-                    select(lane_mask(w.stress.lanes[p]), g.omega * g.volume * points[i].reciprocal_weight, Pack(0.0));
-                work += reduce(share * load_pack(w.stress.work.data() + p * pack_width));
-                const double* strain = w.stress.strain_increment.data() + p * 6 * pack_width;
-                if (evaluation.stress == StressUpdate::advance)
-                    dilation += reduce(share * (load_pack(strain) + load_pack(strain + pack_width) +
-                                                load_pack(strain + 2 * pack_width)));
-            }
-            model.stress_work[i] = model.points.volume[i] * work;
-            model.volume_rate[i] = dilation;
-        }
-    }
+    for_every_family(model, influence(), [&](std::size_t i, const FamilyView& family, Workspace& w) {
+        bond_gradients(model, points, i, family, w);
+        const MaterialStatus status = update_bond_stress(model, i, evaluation, w.stress);
+        if (!status.converged)
+            failure.report(i, status);
+        points[i].moment = stress_sums(model, points, i, family, w) * points[i].inverse_shape;
+        const StepSums step = step_sums(w.stress, family.packs, evaluation.stress, [&](std::size_t p) {
+            const BondGeometry g = geometry(w, p * pack_width);
+            return select(lane_mask(w.stress.lanes[p]), g.omega * g.volume * points[i].reciprocal_weight, Pack(0.0));
+        });
+        model.stress_work[i] = model.points.volume[i] * step.work;
+        model.volume_rate[i] = step.dilation;
+    });
     failure.raise(model);
     update_images(model, points);
-#pragma omp parallel
-    {
-        Workspace w;
-#pragma omp for schedule(dynamic, 32)
-        for (std::size_t i = 0; i < n; ++i) {
-            const FamilyView family = model.families[i];
-            w.reserve(family.packs);
-            gather(model, i, family, influence(), w);
-            model.internal_force[i] = internal_force(model, points, i, family, w);
-        }
-    }
+    for_every_family(model, influence(), [&](std::size_t i, const FamilyView& family, Workspace& w) {
+        model.internal_force[i] = internal_force(model, points, i, family, w);
+    });
 }
 
 void BondProjectionForceState::shares(const Model& model, std::size_t point, std::span<double> shares) const

@@ -8,26 +8,6 @@
 namespace periporo {
 namespace {
 
-SymmetricTensor<Pack> load_symmetric(const double* rows)
-{
-    return {load_pack(rows),
-            load_pack(rows + pack_width),
-            load_pack(rows + 2 * pack_width),
-            load_pack(rows + 3 * pack_width),
-            load_pack(rows + 4 * pack_width),
-            load_pack(rows + 5 * pack_width)};
-}
-
-void store_symmetric(const SymmetricTensor<Pack>& t, double* rows)
-{
-    store_pack(t.xx, rows);
-    store_pack(t.yy, rows + pack_width);
-    store_pack(t.zz, rows + 2 * pack_width);
-    store_pack(t.xy, rows + 3 * pack_width);
-    store_pack(t.yz, rows + 4 * pack_width);
-    store_pack(t.xz, rows + 5 * pack_width);
-}
-
 Tensor<Pack> load_gradient(const double* rows)
 {
     const auto row = [rows](std::size_t c) { return load_pack(rows + c * pack_width); };

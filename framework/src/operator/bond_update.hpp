@@ -24,6 +24,19 @@ inline void store_pack(const Pack& pack, double* row)
     pack.copy_to(row, std::experimental::vector_aligned);
 }
 
+/// Six rows of a pack as a symmetric tensor, and back.
+inline SymmetricTensor<Pack> load_symmetric(const double* rows)
+{
+    const auto row = [rows](std::size_t c) { return load_pack(rows + c * pack_width); };
+    return {row(0), row(1), row(2), row(3), row(4), row(5)};
+}
+inline void store_symmetric(const SymmetricTensor<Pack>& t, double* rows)
+{
+    std::size_t c = 0;
+    for (const Pack* component : {&t.xx, &t.yy, &t.zz, &t.xy, &t.yz, &t.xz})
+        store_pack(*component, rows + pack_width * c++);
+}
+
 /// Gradient with respect to the mid-step positions from the one with respect to the end positions,
 /// L_mid = L (1 - dt L/2)^-1, exact for affine motion since x_mid = x_end - dt v/2.
 template <class Real>
@@ -72,6 +85,27 @@ void gather_water(const Model& model, std::size_t point, StressWorkspace& worksp
 /// Inactive lanes have zero stress afterwards, gradients of inactive lanes must be zero before.
 MaterialStatus update_bond_stress(Model& model, std::size_t point, const Evaluation& evaluation,
                                   StressWorkspace& workspace);
+
+/// Share-weighted sums over the bonds of a point.
+struct StepSums {
+    double work = 0.0;     ///< of the stress, per volume [J/m3]; a power [W/m3] unless stresses were advanced
+    double dilation = 0.0; ///< tr D dt [-]; 0 unless stresses were advanced
+};
+
+/// @param share gives the shares of the bonds of a pack by its number
+template <class Share>
+StepSums step_sums(const StressWorkspace& workspace, std::size_t packs, StressUpdate update, Share&& share)
+{
+    StepSums sums;
+    for (std::size_t p = 0; p < packs; ++p) {
+        const Pack shares = share(p);
+        sums.work += reduce(shares * load_pack(workspace.work.data() + p * pack_width));
+        const double* strain = workspace.strain_increment.data() + p * 6 * pack_width;
+        if (update == StressUpdate::advance)
+            sums.dilation += reduce(shares * trace(load_symmetric(strain)));
+    }
+    return sums;
+}
 
 /// `total_stress` of one pack as a tensor.
 SymmetricTensor<Pack> total_stress(const StressWorkspace& workspace, std::size_t pack);

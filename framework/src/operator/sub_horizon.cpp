@@ -113,13 +113,9 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
         const Tensor<Pack> gradient =
             Tensor<Pack>{s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]} * inverse_shape;
 
-        double* stored_shape = w.inverse_shape.data() + p * 6 * pack_width;
-        std::size_t c = 0;
-        for (const Pack* component : {&inverse_shape.xx, &inverse_shape.yy, &inverse_shape.zz, &inverse_shape.xy,
-                                      &inverse_shape.yz, &inverse_shape.xz})
-            store_pack(*component, stored_shape + pack_width * c++);
+        store_symmetric(inverse_shape, w.inverse_shape.data() + p * 6 * pack_width);
         double* stored_gradient = w.stress.gradient.data() + p * 9 * pack_width;
-        c = 0;
+        std::size_t c = 0;
         for (const Pack* component : {&gradient.xx, &gradient.xy, &gradient.xz, &gradient.yx, &gradient.yy,
                                       &gradient.yz, &gradient.zx, &gradient.zy, &gradient.zz})
             store_pack(*component, stored_gradient + pack_width * c++);
@@ -133,13 +129,7 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
 
 SymmetricTensor<Pack> inverse_shape_of(const Workspace& w, std::size_t pack)
 {
-    const double* rows = w.inverse_shape.data() + pack * 6 * pack_width;
-    return {load_pack(rows),
-            load_pack(rows + pack_width),
-            load_pack(rows + 2 * pack_width),
-            load_pack(rows + 3 * pack_width),
-            load_pack(rows + 4 * pack_width),
-            load_pack(rows + 5 * pack_width)};
+    return load_symmetric(w.inverse_shape.data() + pack * 6 * pack_width);
 }
 
 /// w_b sigma_b K_b^-1 of every bond, as nine rows.
@@ -190,21 +180,16 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
             if (!status.converged)
                 failure.report(i, status);
 
-            double work = 0.0;
-            double dilation = 0.0;
+            const StepSums step = step_sums(w.stress, family.packs, evaluation.stress, [&](std::size_t p) {
+                return load_pack(w.volume.data() + p * pack_width) * reciprocal_total;
+            });
+            model.stress_work[i] = model.points.volume[i] * step.work;
+            model.volume_rate[i] = step.dilation;
             std::uint32_t active = 0;
             for (std::size_t p = 0; p < family.packs; ++p) {
-                const Pack share = load_pack(w.volume.data() + p * pack_width) * reciprocal_total;
-                work += reduce(share * load_pack(w.stress.work.data() + p * pack_width));
-                const double* strain = w.stress.strain_increment.data() + p * 6 * pack_width;
-                if (evaluation.stress == StressUpdate::advance)
-                    dilation += reduce(share * (load_pack(strain) + load_pack(strain + pack_width) +
-                                                load_pack(strain + 2 * pack_width)));
                 model.bonds.active[family.first_pack + p] = w.stress.lanes[p];
                 active += static_cast<std::uint32_t>(std::popcount(w.stress.lanes[p]));
             }
-            model.stress_work[i] = model.points.volume[i] * work;
-            model.volume_rate[i] = dilation;
             model.inactive_bonds[i] = static_cast<std::uint32_t>(family.count) - active;
             model.free_grain[i] = active == 0 ? 1 : 0;
 

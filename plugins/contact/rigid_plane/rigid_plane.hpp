@@ -4,11 +4,9 @@
 // A fixed rigid plane that points of a body rest on and slide over.
 #pragma once
 
-#include "periporo/contact.hpp"
+#include "../common/spring_parameters.hpp"
 
 #include <cmath>
-#include <optional>
-#include <stdexcept>
 
 namespace periporo {
 
@@ -20,54 +18,33 @@ class RigidPlane : public Contact, public RigidSurface {
 public:
     static std::vector<Parameter> parameters()
     {
-        return {
-            Parameter::real_list("point", dimension::length, 3, "A point of the plane"),
-            Parameter::real_list("normal", dimension::none, 3, "Direction from the plane to the free side, any length"),
-            Parameter::real("stiffness", dimension::spring, "Spring between a point and the plane; this or `modulus`")
-                .above(0.0)
-                .optional(),
-            Parameter::real("modulus", dimension::pressure, "Contact modulus C, k = C spacing; this or `stiffness`")
-                .above(0.0)
-                .optional(),
-            Parameter::real("cutoff", dimension::length, "Reach of the reaction; half a spacing when left out")
-                .above(0.0)
-                .optional(),
-            Parameter::real("friction", dimension::none, "Coulomb coefficient of friction").at_least(0.0),
-            Parameter::real("restitution", dimension::none,
-                            "Coefficient of restitution of a collision; 1 for an elastic one")
-                .at_least(0.0)
-                .at_most(1.0)
-                .by_default(1.0)};
+        std::vector<Parameter> records{Parameter::real_list("point", dimension::length, 3, "A point of the plane"),
+                                       Parameter::real_list("normal", dimension::none, 3,
+                                                            "Direction from the plane to the free side, any length")};
+        SpringParameters::append_records(records, "k = C spacing", "half a spacing");
+        return records;
     }
 
     /// @throws std::invalid_argument when the normal has no direction, or unless exactly one of stiffness and modulus
     /// is given.
     explicit RigidPlane(const Parameters& parameters)
-        : point_(vector(parameters.real_list("point"))), normal_(vector(parameters.real_list("normal"))),
-          friction_(parameters.real("friction")), damping_ratio_(damping_ratio(parameters.real("restitution")))
+        : spring_(parameters), point_(vector(parameters.real_list("point"))),
+          normal_(vector(parameters.real_list("normal")))
     {
         const double length = normal_.stableNorm();
         if (!(length > 0.0) || !std::isfinite(length))
             throw std::invalid_argument("normal must be a direction: three numbers that are not all zero");
         normal_ /= length;
-        if (parameters.has("stiffness") == parameters.has("modulus"))
-            throw std::invalid_argument("give exactly one of stiffness (N/m) and modulus (Pa)");
-        if (parameters.has("stiffness"))
-            given_stiffness_ = parameters.real("stiffness");
-        else
-            modulus_ = parameters.real("modulus");
-        if (parameters.has("cutoff"))
-            given_cutoff_ = parameters.real("cutoff");
     }
 
     void scale(const ContactScale& scale) override
     {
-        cutoff_ = given_cutoff_.value_or(0.5 * scale.spacing);
-        stiffness_ = given_stiffness_.value_or(modulus_ * scale.spacing);
+        cutoff_ = spring_.cutoff.value_or(0.5 * scale.spacing);
+        stiffness_ = spring_.stiffness.value_or(spring_.modulus * scale.spacing);
     }
 
     double cutoff() const override { return cutoff_; }
-    double friction() const override { return friction_; }
+    double friction() const override { return spring_.friction; }
     const RigidSurface* surface() const override { return this; }
 
     double distance(const Vector3& position, Vector3& normal) const override
@@ -79,20 +56,16 @@ public:
     void evaluate(std::span<const ContactPair> pairs, std::span<ContactResponse> responses) const override
     {
         for (std::size_t i = 0; i < pairs.size(); ++i)
-            responses[i] = spring_and_dashpot(cutoff_ - pairs[i].distance, stiffness_, damping_ratio_, pairs[i].mass_a,
+            responses[i] = spring_and_dashpot(cutoff_ - pairs[i].distance, stiffness_, spring_.ratio, pairs[i].mass_a,
                                               pairs[i].approach_speed);
     }
 
 private:
     static Vector3 vector(const std::vector<double>& list) { return {list[0], list[1], list[2]}; }
 
+    SpringParameters spring_;
     Vector3 point_;
     Vector3 normal_;
-    double friction_;
-    double damping_ratio_;
-    double modulus_ = 0.0;
-    std::optional<double> given_stiffness_;
-    std::optional<double> given_cutoff_;
     double stiffness_ = 0.0; // [N/m]
     double cutoff_ = 0.0;    // [m]
 };
