@@ -15,7 +15,9 @@ namespace periporo {
 /// w0_i = sum_j omega V_j over active bonds. With S_ij = omega (1/w0_i + 1/w0_j),
 ///     A_i = 1/2 sum_j V_j S_ij sigma_ij (1 - n (x) n)
 ///     T_ij = 1/2 S_ij sigma_ij zeta/|zeta|^2 + omega A_i K_i^-1 zeta/|zeta|^2
-/// A point with det K_i/(tr K_i/3)^3 < least_shape_quality has no gradient; bonds with such an end are inactive.
+/// A point with det K_i/(tr K_i/3)^3 < least_shape_quality has no gradient; bonds with such an end
+/// are inactive, and so are bonds shorter than the root of least_thickness_squared: the stiffness that the projection
+/// adds along a bond grows with 1/|zeta|^2, and the direction of two points on top of each other means nothing.
 class BondProjectionForceState : public ForceState {
 public:
     using ForceState::ForceState;

@@ -53,9 +53,9 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
     const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
     const double difference = filled / geometry->volume() - 1.0;
     if (std::abs(difference) > 1e-9)
-        built.remarks.push_back(
-            fmt::format("body '{}': whole cells hold {:+.2f} per cent of its exact volume more or less", body.name,
-                        100.0 * difference));
+        built.remarks.push_back(fmt::format("body '{}': whole cells hold {:.2f} per cent {} than its exact volume",
+                                            body.name, 100.0 * std::abs(difference),
+                                            difference > 0.0 ? "more" : "less"));
     Points& points = built.model.points;
     const double density =
         material->grain_density * (1.0 - material->porosity) + body.saturation * material->porosity * water_density;
