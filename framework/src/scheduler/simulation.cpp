@@ -17,7 +17,7 @@ namespace periporo {
 namespace {
 
 constexpr int first_iterations = 40; // of the frequency estimate when a stage begins
-constexpr int later_iterations = 4;  // when it is renewed, from the last mode
+constexpr int later_iterations = 8;  // when it is renewed
 constexpr std::uint64_t steps_per_estimate = 50;
 constexpr std::uint64_t steps_per_point_check = 100;
 

@@ -28,13 +28,9 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, in
 {
     const std::size_t n = model.size();
     const std::vector<Vector3> velocity = model.points.velocity;
-    mode_.resize(n, Vector3::Zero());
-    double mode_norm = 0.0;
+    mode_.resize(n);
     for (std::size_t i = 0; i < n; ++i)
-        mode_norm += mode_[i].squaredNorm();
-    const double scale = std::sqrt(mode_norm > 0.0 ? mode_norm / static_cast<double>(n) : 1.0);
-    for (std::size_t i = 0; i < n; ++i)
-        mode_[i] += scale * scattered(i);
+        mode_[i] = scattered(i);
     double squared = 0.0;
     for (int iteration = 0; iteration < iterations; ++iteration) {
         double mass_norm = 0.0;
