@@ -63,7 +63,7 @@ TEST_CASE("a run stopped twice and resumed ends at the same bits as one that was
                                    coarse +
                                    " --quiet --threads 1 --out parts $2 &\n"
                                    "pid=$!\n"
-                                   "while kill -0 $pid 2> /dev/null && [ \"$(wc -l < parts/history.csv.part)\" -lt "
+                                   "while kill -0 $pid 2> /dev/null && [ \"$(cat parts/history.csv.part | wc -l)\" -lt "
                                    "\"$3\" ]; do :; done 2> /dev/null\n"
                                    "kill -s \"$1\" $pid\n"
                                    "wait $pid\n");

@@ -24,31 +24,50 @@ Vector3 scattered(std::size_t point)
 
 } // namespace
 
-double FrequencyEstimate::update(Model& model, const ForceState& force_state, int iterations)
+namespace {
+
+/// Power iteration on `mode`; returns the largest Rayleigh quotient met, omega^2.
+double iterate(Model& model, const ForceState& force_state, int iterations, std::vector<Vector3>& mode)
 {
     const std::size_t n = model.size();
-    const std::vector<Vector3> velocity = model.points.velocity;
-    mode_.resize(n);
-    for (std::size_t i = 0; i < n; ++i)
-        mode_[i] = scattered(i);
     double squared = 0.0;
     for (int iteration = 0; iteration < iterations; ++iteration) {
         double mass_norm = 0.0;
         for (std::size_t i = 0; i < n; ++i)
-            mass_norm += model.points.mass[i] * mode_[i].squaredNorm();
+            mass_norm += model.points.mass[i] * mode[i].squaredNorm();
         if (mass_norm <= 0.0)
             break;
         const double scale = 1.0 / std::sqrt(mass_norm);
         for (std::size_t i = 0; i < n; ++i)
-            model.points.velocity[i] = mode_[i] *= scale;
+            model.points.velocity[i] = mode[i] *= scale;
         model.update_records();
         force_state.evaluate(model, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
         double rayleigh = 0.0;
         for (std::size_t i = 0; i < n; ++i) {
-            rayleigh -= model.internal_force[i].dot(mode_[i]);
-            mode_[i] = -model.internal_force[i] / model.points.mass[i];
+            rayleigh -= model.internal_force[i].dot(mode[i]);
+            mode[i] = -model.internal_force[i] / model.points.mass[i];
         }
         squared = std::max(squared, rayleigh);
+    }
+    return squared;
+}
+
+} // namespace
+
+double FrequencyEstimate::update(Model& model, const ForceState& force_state, int iterations)
+{
+    const std::vector<Vector3> velocity = model.points.velocity;
+    std::vector<Vector3> fresh(model.size());
+    for (std::size_t i = 0; i < model.size(); ++i)
+        fresh[i] = scattered(i);
+    double squared = iterate(model, force_state, iterations, fresh);
+    if (mode_.size() == model.size()) {
+        const double last = iterate(model, force_state, 2, mode_);
+        if (last < squared)
+            mode_ = std::move(fresh);
+        squared = std::max(squared, last);
+    } else {
+        mode_ = std::move(fresh);
     }
     model.points.velocity = velocity;
     model.update_records();

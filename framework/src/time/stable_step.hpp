@@ -21,10 +21,9 @@ struct StableStep {
 };
 
 /// Largest eigenfrequency of the elastic tangent of the operator, families and images as they are, by power iteration
-/// with Rayleigh quotients. Every estimate starts from the same scattered vector and not from the last mode: the
-/// highest mode sits on a few points of the rim, and when another place takes over, a start from the old one does not
-/// see it (a column of 9,600 points blew up that way). A local mode ten times as stiff as the bulk stands out after a
-/// few iterations.
+/// with Rayleigh quotients. Each estimate goes on from the highest mode found so far and also starts from a scattered
+/// vector: the highest mode sits on a few points of the rim, and when another place takes over, the old one does not
+/// see it (a column of 9,600 points blew up that way).
 class FrequencyEstimate {
 public:
     /// Angular frequency [rad/s]. Velocities and records of the model are restored.
