@@ -3,12 +3,15 @@
 //
 #include "time/stable_step.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace periporo {
 namespace {
+
+constexpr double invariant = 1e-10; // what is left of a vector when the basis holds all of it
 
 /// A start vector without a preferred wave length: signs and sizes from a fixed integer hash of point and component.
 Vector3 scattered(std::size_t point)
@@ -22,56 +25,95 @@ Vector3 scattered(std::size_t point)
     return value;
 }
 
-} // namespace
+using Vectors = std::vector<Vector3>;
 
-namespace {
-
-/// Power iteration on `mode`; returns the largest Rayleigh quotient met, omega^2.
-double iterate(Model& model, const ForceState& force_state, int iterations, std::vector<Vector3>& mode)
+double mass_product(const Points& points, const Vectors& a, const Vectors& b)
 {
-    const std::size_t n = model.size();
-    double squared = 0.0;
-    for (int iteration = 0; iteration < iterations; ++iteration) {
-        double mass_norm = 0.0;
-        for (std::size_t i = 0; i < n; ++i)
-            mass_norm += model.points.mass[i] * mode[i].squaredNorm();
-        if (mass_norm <= 0.0)
-            break;
-        const double scale = 1.0 / std::sqrt(mass_norm);
-        for (std::size_t i = 0; i < n; ++i)
-            model.points.velocity[i] = mode[i] *= scale;
-        model.update_records();
-        force_state.evaluate(model, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
-        double rayleigh = 0.0;
-        for (std::size_t i = 0; i < n; ++i) {
-            rayleigh -= model.internal_force[i].dot(mode[i]);
-            mode[i] = -model.internal_force[i] / model.points.mass[i];
-        }
-        squared = std::max(squared, rayleigh);
-    }
-    return squared;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += points.mass[i] * a[i].dot(b[i]);
+    return sum;
+}
+
+void scale(Vectors& vector, double factor)
+{
+    for (Vector3& value : vector)
+        value *= factor;
+}
+
+void add(Vectors& to, double factor, const Vectors& vector)
+{
+    for (std::size_t i = 0; i < to.size(); ++i)
+        to[i] += factor * vector[i];
+}
+
+/// Length 1 in the mass product; false when it has none.
+bool normalize(const Points& points, Vectors& vector)
+{
+    const double squared = mass_product(points, vector, vector);
+    if (!(squared > 0.0))
+        return false;
+    scale(vector, 1.0 / std::sqrt(squared));
+    return true;
+}
+
+/// M^-1 K u of the elastic tangent.
+Vectors tangent(Model& model, const ForceState& force_state, const Vectors& displacement)
+{
+    std::copy(displacement.begin(), displacement.end(), model.points.velocity.begin());
+    model.update_records();
+    force_state.evaluate(model, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
+    Vectors result(model.size());
+    for (std::size_t i = 0; i < model.size(); ++i)
+        result[i] = -model.internal_force[i] / model.points.mass[i];
+    return result;
 }
 
 } // namespace
 
 double FrequencyEstimate::update(Model& model, const ForceState& force_state, int iterations)
 {
-    const std::vector<Vector3> velocity = model.points.velocity;
-    std::vector<Vector3> fresh(model.size());
+    const Points& points = model.points;
+    const Vectors velocity = points.velocity;
+    Vectors start(model.size());
     for (std::size_t i = 0; i < model.size(); ++i)
-        fresh[i] = scattered(i);
-    double squared = iterate(model, force_state, iterations, fresh);
-    if (mode_.size() == model.size()) {
-        const double last = iterate(model, force_state, 2, mode_);
-        if (last < squared)
-            mode_ = std::move(fresh);
-        squared = std::max(squared, last);
-    } else {
-        mode_ = std::move(fresh);
+        start[i] = scattered(i);
+    normalize(points, start);
+    if (mode_.size() == model.size())
+        add(start, 1.0, mode_);
+
+    std::vector<Vectors> basis;
+    Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(iterations, iterations);
+    Eigen::Index size = 0;
+    while (size < iterations && normalize(points, start)) {
+        basis.push_back(start);
+        Vectors image = tangent(model, force_state, start);
+        const double before = std::sqrt(mass_product(points, image, image));
+        for (Eigen::Index row = 0; row <= size; ++row) {
+            projected(row, size) = mass_product(points, basis[static_cast<std::size_t>(row)], image);
+            add(image, -projected(row, size), basis[static_cast<std::size_t>(row)]);
+        }
+        const double left = std::sqrt(mass_product(points, image, image));
+        ++size;
+        if (size == iterations || left <= invariant * before)
+            break;
+        projected(size, size - 1) = left;
+        start = std::move(image);
     }
-    model.points.velocity = velocity;
+    std::copy(velocity.begin(), velocity.end(), model.points.velocity.begin());
     model.update_records();
-    return std::sqrt(std::max(squared, 0.0));
+    if (size == 0)
+        return 0.0;
+
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(projected.topLeftCorner(size, size));
+    Eigen::Index highest = 0;
+    solver.eigenvalues().real().maxCoeff(&highest);
+    const Eigen::VectorXd weights = solver.eigenvectors().col(highest).real();
+    mode_.assign(model.size(), Vector3::Zero());
+    for (Eigen::Index b = 0; b < size; ++b)
+        add(mode_, weights[b], basis[static_cast<std::size_t>(b)]);
+    normalize(points, mode_);
+    return std::sqrt(std::max(solver.eigenvalues().real()[highest], 0.0));
 }
 
 StableStep stable_step(Model& model, const ForceState& force_state, const ContactForces& contact,
