@@ -6,12 +6,13 @@
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
 #include "scheduler/provenance.hpp"
+#include "scheduler/summary.hpp"
+#include "scheduler/vertical_stress.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <map>
+#include <optional>
 
 namespace periporo {
 namespace {
@@ -157,7 +158,12 @@ void Simulation::end_stage()
                           {"residual", dynamics_.residual()},
                           {"mean_speed", dynamics_.mean_speed()}};
     if (is_quasi_static(stage)) {
-        report_vertical_stress(report);
+        if (const std::optional<VerticalStress> profile = vertical_stress(model_, *force_state_)) {
+            report["vertical_stress"] = to_json(*profile);
+            log_->info("vertical stress against rho g depth: largest deviation of a layer {:.1f} per cent of the "
+                       "stress at the bottom, {:.1f} per cent more than a horizon away from the ends",
+                       100.0 * profile->largest_deviation, 100.0 * profile->inner_deviation);
+        }
         if (stage.response == "elastic")
             initialize_materials(model_);
     } else {
@@ -259,7 +265,7 @@ std::string Simulation::stage_line(double fraction) const
         duration_text(left), dynamics_.ledger().kinetic, inactive, free_grains);
 }
 
-void Simulation::check_points() const
+void Simulation::check_points()
 {
     const double far = 1e3 * model_.horizon;
     for (std::size_t i = 0; i < model_.size(); ++i) {
@@ -267,54 +273,13 @@ void Simulation::check_points() const
         const bool finite = x.allFinite() && model_.points.velocity[i].allFinite();
         if (finite && (x - model_.points.initial_position[i]).norm() < far)
             continue;
-        const_cast<Simulation*>(this)->fail(fmt::format(
+        fail(fmt::format(
             "point {} of body '{}' {} at position ({:.5g}, {:.5g}, {:.5g}) m; a smaller [time] safety or a [time] step "
             "shows whether the step is to blame",
             model_.points.id[i], model_.body_of(i).name,
             finite ? "was lost, farther than 1000 horizons from where it began," : "is not finite", x.x(), x.y(),
             x.z()));
     }
-}
-
-void Simulation::report_vertical_stress(nlohmann::json& report)
-{
-    const double g = model_.gravity.norm();
-    if (g <= 0.0)
-        return;
-    const Vector3 up = -model_.gravity / g;
-    std::vector<double> states = model_.point_state;
-    mean_point_states(model_, *force_state_, states);
-    double top = -INFINITY;
-    for (std::size_t i = 0; i < model_.size(); ++i)
-        top = std::max(top, model_.points.position[i].dot(up) + 0.5 * model_.spacing);
-    struct Layer {
-        double stress = 0.0, expected = 0.0, depth = 0.0, count = 0.0;
-    };
-    std::map<long, Layer> layers;
-    for (std::size_t i = 0; i < model_.size(); ++i) {
-        const double* s = states.data() + i * model_.state_stride;
-        Eigen::Matrix3d stress;
-        stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-        const double depth = top - model_.points.position[i].dot(up);
-        Layer& layer = layers[std::lround(std::floor(depth / model_.spacing))];
-        layer.stress += up.dot(stress * up) + model_.points.suction[i] * model_.points.saturation[i];
-        layer.expected -= model_.points.mass[i] / model_.points.initial_volume[i] * g * depth;
-        layer.depth += depth;
-        layer.count += 1.0;
-    }
-    double worst = 0.0, deepest = 0.0;
-    nlohmann::json profile = nlohmann::json::array();
-    for (const auto& [index, layer] : layers) {
-        profile.push_back({layer.depth / layer.count, layer.stress / layer.count, layer.expected / layer.count});
-        worst = std::max(worst, std::abs(layer.stress - layer.expected) / layer.count);
-        deepest = std::max(deepest, std::abs(layer.expected) / layer.count);
-    }
-    report["vertical_stress"] = {{"columns", {"depth [m]", "total vertical stress [Pa]", "-rho g depth [Pa]"}},
-                                 {"layers", profile},
-                                 {"largest_deviation", worst / deepest}};
-    log_->info("vertical stress against rho g depth: largest deviation of a layer {:.1f} per cent of the stress at the "
-               "bottom",
-               100.0 * worst / deepest);
 }
 
 bool Simulation::stop_here()
@@ -344,56 +309,21 @@ double Simulation::wall_seconds() const
 void Simulation::write_summary(const std::string& outcome, const std::string& message)
 {
     const double here = wall_seconds() - at_.wall_seconds;
-    const EnergyLedger& ledger = dynamics_.ledger();
-    nlohmann::json symmetry = nlohmann::json::array();
-    for (const BoundaryDescription& boundary : description_.boundaries)
-        if (boundary.type == "symmetry")
-            symmetry.push_back(std::string(1, "xyz"[boundary.plane.axis]));
-    nlohmann::json the_case{{"title", description_.title},
-                            {"file", description_.file.filename().string()},
-                            {"spacing", model_.spacing},
-                            {"horizon", model_.horizon},
-                            {"force_state", description_.operators.force_state},
-                            {"influence", description_.operators.influence},
-                            {"symmetry", symmetry}};
-    if (description_.comparison)
-        the_case["comparison"] = {{"law", description_.comparison->law},
-                                  {"radius", description_.comparison->radius},
-                                  {"height", description_.comparison->height}};
-    const nlohmann::json summary{
-        {"format", "periporo summary"},
-        {"outcome", outcome},
-        {"message", message},
-        {"case", the_case},
-        {"points", model_.size()},
-        {"bonds", model_.families.bonds()},
-        {"steps", at_.step},
-        {"time", at_.time},
-        {"stages", reports_},
-        {"refreshes", dynamics_.refreshes()},
-        {"wall_seconds", wall_seconds()},
-        {"point_steps_per_second", static_cast<double>(model_.size()) * static_cast<double>(steps_here_) / here},
-        {"energy",
-         {{"unit", "J"},
-          {"kinetic", ledger.kinetic},
-          {"gravity", ledger.gravity},
-          {"stress_work", ledger.stress_work},
-          {"contact", ledger.contact},
-          {"friction", ledger.friction},
-          {"collision", ledger.collision},
-          {"error", ledger.error()}}},
-        {"provenance", provenance(description_, registry_, options_.threads)}};
-    const std::filesystem::path file = options_.directory / "summary.json";
-    const std::filesystem::path aside = file.string() + ".part";
-    std::ofstream stream(aside);
-    stream << summary.dump(2) << '\n';
-    stream.close();
-    if (!stream)
-        throw std::runtime_error(fmt::format("cannot write {}", aside.string()));
-    std::filesystem::rename(aside, file);
+    const double steps_per_second = static_cast<double>(steps_here_) / std::max(here, 1e-9);
+    const double point_rate = static_cast<double>(model_.size()) * steps_per_second;
+    nlohmann::json summary = summary_of(description_, model_, dynamics_);
+    summary["outcome"] = outcome;
+    summary["message"] = message;
+    summary["steps"] = at_.step;
+    summary["time"] = at_.time;
+    summary["stages"] = reports_;
+    summary["wall_seconds"] = wall_seconds();
+    summary["point_steps_per_second"] = point_rate;
+    summary["provenance"] = provenance(description_, registry_, options_.threads);
+    write_json(summary, options_.directory / "summary.json");
     log_->info("{}: {} steps, {} wall, {:.3g} point-steps/s, {:.3g} bond-steps/s", outcome, at_.step,
-               duration_text(wall_seconds()), summary["point_steps_per_second"].get<double>(),
-               static_cast<double>(model_.families.bonds()) * static_cast<double>(steps_here_) / here);
+               duration_text(wall_seconds()), point_rate,
+               static_cast<double>(model_.families.bonds()) * steps_per_second);
 }
 
 void Simulation::fail(const std::string& what)

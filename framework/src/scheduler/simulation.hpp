@@ -41,8 +41,7 @@ private:
     bool dynamic(const StageDescription& stage);
     void renew_step(int iterations);
     void take_step(const StepOptions& options);
-    void check_points() const;
-    void report_vertical_stress(nlohmann::json& report);
+    void check_points();
     bool stop_here();
     void checkpoint();
     double wall_seconds() const;

@@ -1,0 +1,57 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "scheduler/summary.hpp"
+
+#include <fmt/format.h>
+#include <fstream>
+#include <stdexcept>
+
+namespace periporo {
+
+nlohmann::json summary_of(const CaseDescription& description, const Model& model, const Dynamics& dynamics)
+{
+    nlohmann::json symmetry = nlohmann::json::array();
+    for (const BoundaryDescription& boundary : description.boundaries)
+        if (boundary.type == "symmetry")
+            symmetry.push_back(std::string(1, "xyz"[boundary.plane.axis]));
+    nlohmann::json the_case{{"title", description.title},
+                            {"file", description.file.filename().string()},
+                            {"spacing", model.spacing},
+                            {"horizon", model.horizon},
+                            {"force_state", description.operators.force_state},
+                            {"influence", description.operators.influence},
+                            {"symmetry", symmetry}};
+    if (description.comparison)
+        the_case["comparison"] = {{"law", description.comparison->law},
+                                  {"radius", description.comparison->radius},
+                                  {"height", description.comparison->height}};
+    const EnergyLedger& ledger = dynamics.ledger();
+    return {{"format", "periporo summary"},
+            {"case", the_case},
+            {"points", model.size()},
+            {"bonds", model.families.bonds()},
+            {"refreshes", dynamics.refreshes()},
+            {"energy",
+             {{"unit", "J"},
+              {"kinetic", ledger.kinetic},
+              {"gravity", ledger.gravity},
+              {"stress_work", ledger.stress_work},
+              {"contact", ledger.contact},
+              {"friction", ledger.friction},
+              {"collision", ledger.collision},
+              {"error", ledger.error()}}}};
+}
+
+void write_json(const nlohmann::json& content, const std::filesystem::path& file)
+{
+    const std::filesystem::path aside = file.string() + ".part";
+    std::ofstream stream(aside);
+    stream << content.dump(2) << '\n';
+    stream.close();
+    if (!stream)
+        throw std::runtime_error(fmt::format("cannot write {}", aside.string()));
+    std::filesystem::rename(aside, file);
+}
+
+} // namespace periporo

@@ -1,0 +1,67 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "scheduler/vertical_stress.hpp"
+
+#include "operator/refresh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace periporo {
+
+std::optional<VerticalStress> vertical_stress(const Model& model, const ForceState& force_state)
+{
+    const double g = model.gravity.norm();
+    if (g <= 0.0)
+        return std::nullopt;
+    const Vector3 up = -model.gravity / g;
+    std::vector<double> states = model.point_state;
+    mean_point_states(model, force_state, states);
+    double top = -INFINITY;
+    for (std::size_t i = 0; i < model.size(); ++i)
+        top = std::max(top, model.points.position[i].dot(up) + 0.5 * model.spacing);
+    struct Sums {
+        double stress = 0.0, expected = 0.0, depth = 0.0, count = 0.0;
+    };
+    std::map<long, Sums> layers;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const double* s = states.data() + i * model.state_stride;
+        Eigen::Matrix3d stress;
+        stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+        const double depth = top - model.points.position[i].dot(up);
+        Sums& layer = layers[std::lround(std::floor(depth / model.spacing))];
+        layer.stress += up.dot(stress * up) + model.points.suction[i] * model.points.saturation[i];
+        layer.expected -= model.points.mass[i] / model.points.initial_volume[i] * g * depth;
+        layer.depth += depth;
+        layer.count += 1.0;
+    }
+    VerticalStress profile;
+    for (const auto& [index, layer] : layers)
+        profile.layers.push_back({layer.depth / layer.count, layer.stress / layer.count, layer.expected / layer.count});
+    double deepest = 0.0;
+    for (const VerticalStress::Layer& layer : profile.layers)
+        deepest = std::max(deepest, std::abs(layer.expected));
+    const double bottom = profile.layers.back().depth;
+    for (const VerticalStress::Layer& layer : profile.layers) {
+        const double deviation = std::abs(layer.stress - layer.expected) / deepest;
+        profile.largest_deviation = std::max(profile.largest_deviation, deviation);
+        if (layer.depth > model.horizon && layer.depth < bottom - model.horizon)
+            profile.inner_deviation = std::max(profile.inner_deviation, deviation);
+    }
+    return profile;
+}
+
+nlohmann::json to_json(const VerticalStress& profile)
+{
+    nlohmann::json layers = nlohmann::json::array();
+    for (const VerticalStress::Layer& layer : profile.layers)
+        layers.push_back({layer.depth, layer.stress, layer.expected});
+    return {{"columns", {"depth [m]", "total vertical stress [Pa]", "-rho g depth [Pa]"}},
+            {"layers", layers},
+            {"largest_deviation", profile.largest_deviation},
+            {"inner_deviation", profile.inner_deviation}};
+}
+
+} // namespace periporo

@@ -1,0 +1,67 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The profile of the settled vertical stress.
+#include "scheduler/vertical_stress.hpp"
+#include "support/specimens.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace specimens;
+
+namespace {
+
+constexpr double dx = 0.01;
+constexpr double g = 9.81;
+constexpr int rows = 10;
+
+/// A column of `rows` layers in which all bonds of a point carry the vertical stress `at(height)`.
+std::optional<VerticalStress> profile(const std::function<double(double)>& at, double gravity = g)
+{
+    Model model = from_positions(lattice(4, 4, rows, dx), dx);
+    model.gravity = {0.0, 0.0, -gravity};
+    find_first_families(model);
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    set_stress(model, [&](std::size_t i, std::size_t) {
+        SymmetricTensor<double> s;
+        s.zz = at(model.points.position[i].z());
+        return s;
+    });
+    force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
+    return vertical_stress(model, *force);
+}
+
+double weight_above(double height)
+{
+    return -density * g * (rows * dx - height);
+}
+
+} // namespace
+
+TEST_CASE("a column that carries the weight above has no deviation, layer by layer from the top")
+{
+    const auto found = profile(weight_above);
+    REQUIRE(found);
+    REQUIRE(found->layers.size() == rows);
+    for (std::size_t k = 0; k < rows; ++k) {
+        CHECK(found->layers[k].depth == doctest::Approx((static_cast<double>(k) + 0.5) * dx));
+        CHECK(found->layers[k].stress == doctest::Approx(weight_above((rows - 0.5 - static_cast<double>(k)) * dx)));
+    }
+    CHECK(found->largest_deviation < 1e-12); // sums of some 100 shares
+}
+
+TEST_CASE("a layer that misses half of the bottom stress is found, and near the floor it is no inner one")
+{
+    const double bottom = density * g * (rows - 0.5) * dx;
+    const auto found = profile([&](double z) { return weight_above(z) + (z < dx ? 0.5 * bottom : 0.0); });
+    REQUIRE(found);
+    CHECK(found->largest_deviation == doctest::Approx(0.5));
+    CHECK(found->inner_deviation < 1e-12);
+    const auto inside = profile([&](double z) { return weight_above(z) + (z > 5 * dx && z < 6 * dx ? bottom : 0.0); });
+    CHECK(inside->inner_deviation == doctest::Approx(1.0));
+}
+
+TEST_CASE("without gravity there is no profile")
+{
+    CHECK_FALSE(profile(weight_above, 0.0));
+}
