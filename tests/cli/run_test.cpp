@@ -93,7 +93,7 @@ TEST_CASE("a checkpoint of another case is refused")
             "while kill -0 $pid 2> /dev/null && [ ! -s it/history.csv.part ]; do :; done\nkill $pid\nwait $pid\n");
     std::system(("cd '" + folder.path().string() + "' && sh stop.sh").c_str());
     const ProgramResult result = folder.run(coarse + "--set 'contact.0.friction=0.4' --out it --resume");
-    CHECK(result.status == 1);
+    CHECK(result.status == 2);
     CHECK(result.error.find("another case") != std::string::npos);
 }
 

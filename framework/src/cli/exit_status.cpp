@@ -5,6 +5,7 @@
 #include "cli/exit_status.hpp"
 
 #include "case/reader.hpp"
+#include "io/checkpoint.hpp"
 #include "plugins/registry.hpp"
 
 #include <fmt/core.h>
@@ -35,6 +36,8 @@ ExitStatus report_faults(const std::function<ExitStatus()>& action)
     } catch (const PluginError& error) {
         return complain(ExitStatus::wrong_input, error.what());
     } catch (const UsageError& error) {
+        return complain(ExitStatus::wrong_input, error.what());
+    } catch (const ForeignCheckpoint& error) {
         return complain(ExitStatus::wrong_input, error.what());
     } catch (const std::bad_alloc&) {
         return complain(ExitStatus::failed, "out of memory; a larger spacing needs less");

@@ -110,9 +110,9 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
 {
     const ArchiveReader archive(file);
     if (archive.text("case") != resolved_case)
-        throw std::runtime_error(fmt::format("{} was written by another case or with other --set values; run the case "
-                                             "that it was started with, or start anew with --overwrite",
-                                             file.string()));
+        throw ForeignCheckpoint(fmt::format("{} was written by another case or with other --set values; run the case "
+                                            "that it was started with, or start anew with --overwrite",
+                                            file.string()));
     Model& model = parts.model;
     Points& points = model.points;
     RunPosition& at = parts.position;

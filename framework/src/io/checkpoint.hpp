@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,12 @@ struct RunPosition {
     std::string stage_reports; ///< JSON of the stages that are done
 };
 
+/// A checkpoint that this case cannot go on from: the user's input is wrong.
+class ForeignCheckpoint : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 struct CheckpointParts {
     Model& model;
     ContactForces& contact;
@@ -48,7 +55,7 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
 /// Restores a model that was built from the same case; constraints of the stage remain to be set.
 /// @param generators gives the isometries that make the images of a stage
 /// @param contact_slack as for ContactForces::find_candidates [m]
-/// @throws std::runtime_error when the file cannot be read or was written by another case.
+/// @throws ForeignCheckpoint when it was written by another case, std::runtime_error when it cannot be read.
 void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case,
                      double contact_slack, const std::function<std::vector<Isometry>(std::uint64_t stage)>& generators);
 
