@@ -233,13 +233,4 @@ void SubHorizonForceState::shares(const Model& model, std::size_t point, std::sp
             share /= total;
 }
 
-void SubHorizonForceState::velocity_gradients(const Model& model, std::size_t point, std::span<double> gradients) const
-{
-    const FamilyView family = model.families[point];
-    Workspace w;
-    w.reserve(family.packs);
-    kinematics(model, point, family, gather(model, point, family, influence(), w), w);
-    std::copy_n(w.stress.gradient.begin(), family.packs * 9 * pack_width, gradients.begin());
-}
-
 } // namespace periporo

@@ -28,9 +28,6 @@ public:
     void evaluate(Model& model, const Evaluation& evaluation) const override;
     void shares(const Model& model, std::size_t point, std::span<double> shares) const override;
 
-    /// L_b of every bond of a point, nine rows (xx, xy, ... zz) a pack [1/s], for looking at; zero where inactive.
-    void velocity_gradients(const Model& model, std::size_t point, std::span<double> gradients) const;
-
 private:
     Weighting weighting_;
 };
