@@ -30,7 +30,7 @@ struct DiscretizationDescription {
 
 struct OperatorDescription {
     std::string force_state = "energy_conjugate";
-    std::string influence = "constant";
+    std::string influence = "linear";
 };
 
 struct TimeDescription {

@@ -28,7 +28,7 @@ TableRules operator_rules()
                  .by_default("energy_conjugate"),
              Parameter::text("influence", "Influence function over the length of a bond")
                  .one_of({"constant", "linear", "gaussian"})
-                 .by_default("constant")}};
+                 .by_default("linear")}};
 }
 
 TableRules time_rules()
