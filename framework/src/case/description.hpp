@@ -34,7 +34,7 @@ struct OperatorDescription {
 };
 
 struct TimeDescription {
-    double safety = 0.7;        ///< on the stable step [-]
+    double safety = 0.85;       ///< on the stable step [-]
     std::optional<double> step; ///< a fixed step instead of the computed one [s]
 };
 

@@ -4,6 +4,9 @@
 // The parameter records of every section of a case file.
 #include "case/schema.hpp"
 
+#include "operator/force_state.hpp"
+#include "operator/influence.hpp"
+
 namespace periporo {
 namespace {
 
@@ -24,10 +27,10 @@ TableRules discretization_rules()
 TableRules operator_rules()
 {
     return {{Parameter::text("force_state", "Force state of the periporomechanics operator")
-                 .one_of({"energy_conjugate", "volume_weighted", "bond_projection"})
+                 .one_of(force_state_names())
                  .by_default("energy_conjugate"),
              Parameter::text("influence", "Influence function over the length of a bond")
-                 .one_of({"constant", "linear", "gaussian"})
+                 .one_of(influence_names())
                  .by_default("linear")}};
 }
 
@@ -36,7 +39,7 @@ TableRules time_rules()
     return {{Parameter::real("safety", dimension::none, "Factor on the stable time step")
                  .above(0.0)
                  .at_most(1.0)
-                 .by_default(0.7),
+                 .by_default(0.85),
              Parameter::real("step", dimension::time, "Fixed time step instead of the computed one")
                  .above(0.0)
                  .optional()}};

@@ -175,7 +175,7 @@ double find_activity(Model& model, const std::vector<PointKinematics>& points, s
             double squared = 0.0;
             for (std::size_t c = 0; c < 3; ++c)
                 squared += (other.position[c] - self.position[c]) * (other.position[c] - self.position[c]);
-            if (squared < least_thickness_squared * model.spacing * model.spacing)
+            if (squared < shortest_bond * shortest_bond * model.spacing * model.spacing)
                 continue;
             bits = static_cast<std::uint8_t>(bits | 1u << lane);
             weight += influence(squared) * other.volume;

@@ -8,6 +8,9 @@
 
 namespace periporo {
 
+/// In spacings; two points nearer to each other have no bond that carries stress.
+inline constexpr double shortest_bond = 0.35;
+
 /// Breitzman and Dayal 2018, Behzadinasab and Foster 2020, in the current configuration. With n = zeta/|zeta|,
 ///     K_i = sum_j omega V_j n (x) n;  L_i = [sum_j omega V_j (v_j - v_i) (x) zeta/|zeta|^2] K_i^-1
 ///     L_ij = Lbar + [(v_j - v_i) - Lbar zeta] (x) zeta/|zeta|^2,  Lbar = (L_i + L_j)/2
@@ -16,7 +19,7 @@ namespace periporo {
 ///     A_i = 1/2 sum_j V_j S_ij sigma_ij (1 - n (x) n)
 ///     T_ij = 1/2 S_ij sigma_ij zeta/|zeta|^2 + omega A_i K_i^-1 zeta/|zeta|^2
 /// A point with det K_i/(tr K_i/3)^3 < least_shape_quality has no gradient; bonds with such an end
-/// are inactive, and so are bonds shorter than the root of least_thickness_squared: the stiffness that the projection
+/// are inactive, and so are bonds shorter than shortest_bond spacings: the stiffness that the projection
 /// adds along a bond grows with 1/|zeta|^2, and the direction of two points on top of each other means nothing.
 class BondProjectionForceState : public ForceState {
 public:

@@ -4,13 +4,15 @@
 #include "operator/force_state.hpp"
 
 #include "operator/bond_projection.hpp"
+#include "operator/point_correspondence.hpp"
 #include "operator/sub_horizon.hpp"
 
 namespace periporo {
 
 const std::vector<std::string>& force_state_names()
 {
-    static const std::vector<std::string> names{"energy_conjugate", "volume_weighted", "bond_projection"};
+    static const std::vector<std::string> names{"energy_conjugate", "volume_weighted", "bond_projection",
+                                                "unstabilized"};
     return names;
 }
 
@@ -23,6 +25,8 @@ std::unique_ptr<ForceState> make_force_state(const std::string& name, Influence 
         return std::make_unique<SubHorizonForceState>(influence, Weighting::volume_weighted);
     if (name == "bond_projection")
         return std::make_unique<BondProjectionForceState>(influence);
+    if (name == "unstabilized")
+        return std::make_unique<PointCorrespondenceForceState>(influence);
     throw std::invalid_argument("no force state is called '" + name + "'");
 }
 

@@ -39,12 +39,18 @@ private:
 };
 
 /// A sub-horizon thinner than this carries no stress: with K_b the shape tensor, omega_i the mean influence in the
-/// family and V(H_b) the volume, the squared thickness is 1/(tr(K_b^-1) omega_i V(H_b)), here in squared spacings. It
-/// is 0 for a sheet, a row or fewer than four points, at least 0.28 in an intact lattice with a constant influence and
-/// 0.15 with a gaussian one, corners included. The frequency of a bond grows with the inverse of its thickness, so this
-/// bound also keeps the stable step: of a column in collapse some 4 per cent of the bonds of the thin rim are inactive;
-/// a bound on det K/(tr K/3)^3 of 1e-3 instead leaves them in and cuts the step of the whole run to a fifteenth.
-inline constexpr double least_thickness_squared = 0.12;
+/// family and V(H_b) the volume, the squared thickness is 1/(tr(K_b^-1) omega_i V(H_b)), here over the second moment of
+/// the influence function. It is 1/3 for a full family, 0 for a sheet, a row or fewer than four points, and above
+/// the bound in an intact lattice with any influence function, corners included. The frequency of a bond grows with the
+/// inverse of its thickness, so this bound also keeps the stable step: of a column in collapse some 4 per cent of the
+/// bonds of the thin rim are inactive; a bound on det K/(tr K/3)^3 of 1e-3 alone leaves them in and cuts the step of
+/// the whole run to a fifteenth.
+inline constexpr double least_relative_thickness = 0.1;
+
+/// A shape tensor K_b or K_i with det K/(tr K/3)^3 below this counts as singular. Of a pair or a row both the
+/// determinant and the adjugate are round-off, so that the thickness alone is a comparison of two accidents: two loose
+/// grains within each other's horizon once took such a bond for sound and left at 75 km/s.
+inline constexpr double singular_shape_quality = 1e-3;
 
 /// A point whose K_i of the bond projection has det K/(tr K/3)^3 below this has no gradient of its own.
 inline constexpr double least_shape_quality = 0.15;
@@ -70,7 +76,7 @@ private:
     Influence influence_;
 };
 
-/// Names for `make_force_state`: "energy_conjugate", "volume_weighted", "bond_projection".
+/// Names for `make_force_state`: "energy_conjugate", "volume_weighted", "bond_projection", "unstabilized".
 const std::vector<std::string>& force_state_names();
 
 /// @throws std::invalid_argument for a name that is not in force_state_names().

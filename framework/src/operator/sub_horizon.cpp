@@ -91,12 +91,13 @@ FamilySums gather(const Model& model, std::size_t point, const FamilyView& famil
 }
 
 /// K_b^-1, L_b, V(H_b) and activity of every bond. Returns the sum of V(H_b) over active bonds.
+/// @param thickness least thickness squared [m2]
 double kinematics(const Model& model, std::size_t point, const FamilyView& family, const FamilySums& family_sums,
-                  Workspace& w)
+                  double thickness, Workspace& w)
 {
     const Pack self_volume = model.records[point].volume;
     const Pack zero = 0.0;
-    const double least = least_thickness_squared * model.spacing * model.spacing * family_sums.mean_influence;
+    const double least = thickness * family_sums.mean_influence;
     double total = 0.0;
     for (std::size_t p = 0; p < family.packs; ++p) {
         const auto s =
@@ -105,7 +106,9 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
         const Pack det = determinant(shape);
         const Pack volume = s[15] + self_volume;
         SymmetricTensor<Pack> inverse_shape = adjugate(shape);
-        const PackMask active = det > zero && det >= least * volume * trace(inverse_shape);
+        const Pack mean = trace(shape) * (1.0 / 3.0);
+        const PackMask active =
+            det > singular_shape_quality * mean * mean * mean && det >= least * volume * trace(inverse_shape);
         const Pack scale = select(active, Pack(1.0) / det, zero);
         for (Pack* c : {&inverse_shape.xx, &inverse_shape.yy, &inverse_shape.zz, &inverse_shape.xy, &inverse_shape.yz,
                         &inverse_shape.xz})
@@ -165,6 +168,7 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
 {
     FirstFailure failure;
     const std::size_t n = model.size();
+    const double thickness = least_relative_thickness * influence().second_moment();
 #pragma omp parallel
     {
         Workspace w;
@@ -174,7 +178,7 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
             const std::size_t row = row_stride(family.packs);
             w.reserve(family.packs);
             const FamilySums sums = gather(model, i, family, influence(), w);
-            const double total = kinematics(model, i, family, sums, w);
+            const double total = kinematics(model, i, family, sums, thickness, w);
             const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;
             const MaterialStatus status = update_bond_stress(model, i, evaluation, w.stress);
             if (!status.converged)

@@ -11,7 +11,7 @@ namespace periporo {
 /// Kinematics on a bond b = (i,j): with H_b = H_i and H_j,
 ///     K_b = sum_{k in H_b} omega_ik V_k zeta_ik (x) zeta_ik
 ///     L_b = [sum_{k in H_b} omega_ik V_k (v_k - v_i) (x) zeta_ik] K_b^-1
-/// (Menon and Song 2021). A bond whose sub-horizon is thinner than least_thickness_squared is inactive.
+/// (Menon and Song 2021). A bond whose sub-horizon is thinner than least_relative_thickness is inactive.
 class SubHorizonForceState : public ForceState {
 public:
     enum class Weighting {
