@@ -182,8 +182,10 @@ void Simulation::renew_step(int iterations)
         at_.time_step = *description_.time.step;
         return;
     }
-    const StableStep stable =
-        stable_step(model_, *force_state_, contact_, frequency_, iterations, description_.time.safety);
+    StableStep stable = stable_step(model_, *force_state_, contact_, frequency_, iterations, description_.time.safety);
+    const StageDescription& stage = description_.stages[at_.stage];
+    if (is_quasi_static(stage))
+        stable.step *= local_damping_factor(stage.damping);
     const bool news = std::abs(stable.step - at_.time_step) > 0.1 * at_.time_step;
     at_.time_step = stable.step;
     if (news)

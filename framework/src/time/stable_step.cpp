@@ -135,4 +135,9 @@ StableStep stable_step(Model& model, const ForceState& force_state, const Contac
     return result;
 }
 
+double local_damping_factor(double coefficient)
+{
+    return 1.0 / std::sqrt(1.0 + coefficient);
+}
+
 } // namespace periporo

@@ -45,4 +45,8 @@ private:
 StableStep stable_step(Model& model, const ForceState& force_state, const ContactForces& contact,
                        FrequencyEstimate& estimate, int iterations, double safety);
 
+/// What Cundall's local damping leaves of the stable step, (1 + alpha)^(-1/2): where force and velocity oppose each other
+/// it multiplies the force by 1 + alpha, and so the stiffness.
+double local_damping_factor(double coefficient);
+
 } // namespace periporo
