@@ -25,6 +25,7 @@ int run_program(int count, char** arguments)
     periporo::cli::add_check_command(program, action);
     periporo::cli::add_explain_command(program, action);
     periporo::cli::add_inspect_command(program, action);
+    periporo::cli::add_dispersion_command(program, action);
     try {
         program.parse(count, arguments);
     } catch (const CLI::Success& request) { // --help and --version

@@ -17,6 +17,12 @@ namespace {
 
 constexpr double water_density = 1000.0; // [kg/m3]
 
+const MaterialDescription& material_of(const CaseDescription& description, const BodyDescription& body)
+{
+    return *std::find_if(description.materials.begin(), description.materials.end(),
+                         [&](const MaterialDescription& m) { return m.name == body.material; });
+}
+
 /// True when the boundaries leave the position in the model.
 bool kept(const CaseDescription& description, const Vector3& x)
 {
@@ -41,8 +47,6 @@ std::uint64_t curve_position(const Vector3& x, const Vector3& lower, double spac
 void add_body(BuiltModel& built, const CaseDescription& description, std::size_t index, const PluginRegistry& registry)
 {
     const BodyDescription& body = description.bodies[index];
-    const auto material = std::find_if(description.materials.begin(), description.materials.end(),
-                                       [&](const MaterialDescription& m) { return m.name == body.material; });
     const auto geometry = registry.make_geometry(body.geometry.name, body.geometry.parameters);
     PointCloud cloud;
     try {
@@ -57,8 +61,7 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
                                             body.name, 100.0 * std::abs(difference),
                                             difference > 0.0 ? "more" : "less"));
     Points& points = built.model.points;
-    const double density =
-        material->grain_density * (1.0 - material->porosity) + body.saturation * material->porosity * water_density;
+    const double density = mixture_density(description, body);
     std::size_t cut = 0;
     for (std::size_t p = 0; p < cloud.positions.size(); ++p) {
         if (!kept(description, cloud.positions[p])) {
@@ -86,9 +89,7 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
                                             "by images",
                                             body.name, cut, cloud.positions.size()));
     built.model.bodies.push_back(
-        {body.name,
-         std::shared_ptr<const Material>(registry.make_material(material->model.name, material->model.parameters)),
-         body.initial_stress.overconsolidation_ratio});
+        {body.name, make_material(description, body, registry), body.initial_stress.overconsolidation_ratio});
 }
 
 void order_along_curve(Points& points, double spacing)
@@ -122,6 +123,19 @@ void order_along_curve(Points& points, double spacing)
 }
 
 } // namespace
+
+std::shared_ptr<const Material> make_material(const CaseDescription& description, const BodyDescription& body,
+                                              const PluginRegistry& registry)
+{
+    const PluginChoice& model = material_of(description, body).model;
+    return registry.make_material(model.name, model.parameters);
+}
+
+double mixture_density(const CaseDescription& description, const BodyDescription& body)
+{
+    const MaterialDescription& material = material_of(description, body);
+    return material.grain_density * (1.0 - material.porosity) + body.saturation * material.porosity * water_density;
+}
 
 BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry)
 {

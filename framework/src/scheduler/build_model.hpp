@@ -10,10 +10,18 @@
 #include "plugins/registry.hpp"
 #include "time/dynamics.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace periporo {
+
+/// The material of a body of the case, made by its plugin.
+std::shared_ptr<const Material> make_material(const CaseDescription& description, const BodyDescription& body,
+                                              const PluginRegistry& registry);
+
+/// rho_s (1 - phi) + S_r phi rho_w of a body [kg/m3].
+double mixture_density(const CaseDescription& description, const BodyDescription& body);
 
 struct BuiltModel {
     Model model;
