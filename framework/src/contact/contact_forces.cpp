@@ -70,6 +70,18 @@ void ContactForces::find_candidates(const Model& model, double slack)
 }
 
 template <class Neighbours, class Reach>
+void ContactForces::count_contacts(const Model& model, std::uint32_t point, const Neighbours& neighbours,
+                                   const Reach& reach)
+{
+    const Vector3 x = position(model.records[point]);
+    contacts_of_[point] =
+        static_cast<std::uint32_t>(std::count_if(neighbours.begin(), neighbours.end(), [&](std::uint32_t c) {
+            const double distance = (x - position(model.records[c])).norm();
+            return distance < reach(model.families.parent(c)) && distance > 0.0;
+        }));
+}
+
+template <class Neighbours, class Reach>
 void ContactForces::gather_pairs(const Model& model, const Contact& law, std::uint32_t point,
                                  const Neighbours& neighbours, const Reach& reach, double time_step,
                                  std::vector<Vector3>& force)
@@ -78,6 +90,7 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
     std::array<ContactResponse, block> responses;
     std::array<Vector3, block> normals;
     std::array<Vector3, block> slips;
+    std::array<double, block> crowds; // contacts of the end that has more of them: each stops its share of the slip
     const Points& points = model.points;
     const Vector3 x = position(model.records[point]);
     const Vector3 v = velocity(model.records[point]);
@@ -93,7 +106,8 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
             if (speed <= 0.0 || time_step <= 0.0)
                 continue;
             const double reduced = pairs[c].mass_a * pairs[c].mass_b / (pairs[c].mass_a + pairs[c].mass_b);
-            const double size = std::min(law.friction() * responses[c].force, reduced * speed / time_step);
+            const double stops = reduced * speed / (time_step * crowds[c]);
+            const double size = std::min(law.friction() * responses[c].force, stops);
             const Vector3 friction = -(size / speed) * slips[c];
             force[point] += friction;
             friction_[point] += friction;
@@ -118,6 +132,7 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
                         points.mass[p]};
         normals[count] = normal;
         slips[count] = relative - opening * normal;
+        crowds[count] = std::max(contacts_of_[point], contacts_of_[p]);
         if (++count == block)
             flush();
     }
@@ -130,14 +145,20 @@ void ContactForces::add_pairs(const Model& model, std::size_t assignment, double
     if (candidates.neighbours.empty())
         return;
     const Contact& law = *assignments_[assignment].law;
+    const auto n = static_cast<std::uint32_t>(model.size());
+    const auto row = [&candidates](std::uint32_t i) {
+        return std::span(candidates.neighbours.data() + candidates.first[i],
+                         candidates.first[i + 1] - candidates.first[i]);
+    };
+    const auto reach = [&law](std::uint32_t) { return law.cutoff(); };
+    contacts_of_.assign(n, 0);
 #pragma omp parallel for schedule(dynamic, 64)
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i) {
-        const std::span row(candidates.neighbours.data() + candidates.first[i],
-                            candidates.first[i + 1] - candidates.first[i]);
-        if (!row.empty())
-            gather_pairs(
-                model, law, i, row, [&](std::uint32_t) { return law.cutoff(); }, time_step, force);
-    }
+    for (std::uint32_t i = 0; i < n; ++i)
+        count_contacts(model, i, row(i), reach);
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::uint32_t i = 0; i < n; ++i)
+        if (contacts_of_[i] > 0)
+            gather_pairs(model, law, i, row(i), reach, time_step, force);
 }
 
 void ContactForces::update_grain_reach(const Model& model, const ContactAssignment& assignment)
@@ -178,25 +199,34 @@ void ContactForces::add_free_grains(const Model& model, const ContactAssignment&
     }
     if (!some)
         return;
+    contacts_of_.assign(model.size(), 0);
+    // Calls visit(point, partners, reach) for every point that may touch a free grain.
+    const auto for_each_concerned = [&](auto&& visit) {
 #pragma omp parallel
-    {
-        std::vector<std::uint32_t> partners;
+        {
+            std::vector<std::uint32_t> partners;
 #pragma omp for schedule(dynamic, 64)
-        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i) {
-            if (concerned[i] == 0)
-                continue;
-            partners.clear();
-            const FamilyView family = model.families[i];
-            for (std::size_t b = 0; b < family.count; ++b)
-                if (model.free_grain[i] != 0 || model.free_grain[model.families.parent(family.neighbours[b])] != 0)
-                    partners.push_back(family.neighbours[b]);
-            const auto reach = [&](std::uint32_t other) {
-                const double own = grain_reach_[i] < 0.0 ? assignment.law->cutoff() : grain_reach_[i];
-                return grain_reach_[other] < 0.0 ? own : std::min(own, grain_reach_[other]);
-            };
-            gather_pairs(model, *assignment.law, i, partners, reach, time_step, force);
+            for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i) {
+                if (concerned[i] == 0)
+                    continue;
+                partners.clear();
+                const FamilyView family = model.families[i];
+                for (std::size_t b = 0; b < family.count; ++b)
+                    if (model.free_grain[i] != 0 || model.free_grain[model.families.parent(family.neighbours[b])] != 0)
+                        partners.push_back(family.neighbours[b]);
+                visit(i, partners, [&, i](std::uint32_t other) {
+                    const double own = grain_reach_[i] < 0.0 ? assignment.law->cutoff() : grain_reach_[i];
+                    return grain_reach_[other] < 0.0 ? own : std::min(own, grain_reach_[other]);
+                });
+            }
         }
-    }
+    };
+    for_each_concerned(
+        [&](std::uint32_t i, const auto& partners, const auto& reach) { count_contacts(model, i, partners, reach); });
+    for_each_concerned([&](std::uint32_t i, const auto& partners, const auto& reach) {
+        if (contacts_of_[i] > 0)
+            gather_pairs(model, *assignment.law, i, partners, reach, time_step, force);
+    });
 }
 
 void ContactForces::add_surface(const Model& model, const ContactAssignment& assignment, std::vector<Vector3>& force)

@@ -64,12 +64,14 @@ private:
         double force;
         Vector3 normal;
     };
-    struct PairForce;
 
     void add_surface(const Model& model, const ContactAssignment& assignment, std::vector<Vector3>& force);
     void add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
     void add_free_grains(const Model& model, const ContactAssignment& assignment, double time_step,
                          std::vector<Vector3>& force);
+    /// How many `neighbours` a point touches, to contacts_of_.
+    template <class Neighbours, class Reach>
+    void count_contacts(const Model& model, std::uint32_t point, const Neighbours& neighbours, const Reach& reach);
     /// Sums the contacts of a point with `neighbours`, no farther apart than reach(neighbour's point).
     template <class Neighbours, class Reach>
     void gather_pairs(const Model& model, const Contact& law, std::uint32_t point, const Neighbours& neighbours,
@@ -83,6 +85,9 @@ private:
         std::vector<std::uint32_t> neighbours;
     };
     std::vector<Candidates> candidates_;
+    /// Contacts of each point under the assignment at hand. Friction that stops the slip of a pair within a step is
+    /// divided by the larger number of its two ends: together they stop a point and never throw it back.
+    std::vector<std::uint32_t> contacts_of_;
     std::vector<Vector3> friction_;
     std::vector<SurfaceContact> surface_contacts_;
     std::vector<double> point_energy_;

@@ -131,6 +131,31 @@ TEST_CASE("friction between two grains takes momentum from one and gives it to t
     CHECK(dynamics.ledger().friction > 0.0);
 }
 
+TEST_CASE("a grain that slips over six others at once is stopped within a step and not thrown back")
+{
+    // One grain above a ring of six of another body, heavy so that they stay; pressed together by their overlap.
+    std::vector<Vector3> positions{{0.0, 0.0, 0.003}};
+    for (int n = 0; n < 6; ++n)
+        positions.emplace_back(0.005 * std::cos(n * std::numbers::pi / 3.0),
+                               0.005 * std::sin(n * std::numbers::pi / 3.0), 0.0);
+    Model model = from_positions(positions, dx, 0.1); // a horizon too short for families
+    model.bodies.push_back(model.bodies.front());
+    for (std::size_t i = 1; i < model.size(); ++i) {
+        model.points.body[i] = 1;
+        model.points.mass[i] *= 1e6;
+    }
+    find_first_families(model);
+    ContactForces contact = short_range(1e5, 1e3, model); // friction without a practical limit
+    contact.find_candidates(model, 0.0);
+    const double slip = 0.1, dt = 1e-5;
+    set_velocity(model, [&](const Vector3& x) { return Vector3(0.0, x.z() > 0.0 ? slip : 0.0, 0.0); });
+    std::vector<Vector3> force(model.size(), Vector3::Zero());
+    contact.add_reactions(model, dt, ContactForces::Approach::none, force);
+    const double change = dt / model.points.mass[0] * contact.friction()[0].y();
+    CHECK(change < -0.3 * slip); // each contact stops the part of the slip that is tangential to it
+    CHECK(change >= -slip);
+}
+
 TEST_CASE("a block slides down an incline with g (sin a - mu cos a)")
 {
     const double angle = 0.6, mu = 0.3, time = 0.2;
