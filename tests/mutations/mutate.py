@@ -1,0 +1,161 @@
+# Copyright 2026 The periporo authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+"""Breaks the operator on purpose and demands that a test notices.
+
+A mutation replaces one text in one source. The mutated source is compiled with the command of the build, linked in
+front of the framework's library into a test program, and the program must report a failed check.
+"""
+from __future__ import annotations
+
+import argparse
+import shlex
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Mutation:
+    """What is broken, and who must see it."""
+
+    source: str  # below framework/src, compiled anew
+    text: str  # stands exactly once in `place`
+    becomes: str
+    test: str  # test program that must fail
+    header: str = ""  # where the text stands, when not in the source itself
+
+    @property
+    def place(self) -> str:
+        return self.header or self.source
+
+
+_IDENTITIES = "properties.operator_identities_test"
+_REFRESH = "unit.operator.refresh_test"
+
+MUTATIONS = {
+    "influence_dropped_from_the_force": Mutation(
+        "operator/sub_horizon.cpp", "store_pack(omega * (moment", "store_pack((moment", _IDENTITIES
+    ),
+    "influence_dropped_from_the_projected_force": Mutation(
+        "operator/bond_projection.cpp", "g.omega * ((own[3 * r]", "((own[3 * r]", _IDENTITIES
+    ),
+    "shares_that_do_not_sum_to_one": Mutation(
+        "operator/sub_horizon.cpp",
+        "total > 0.0 ? 1.0 / total : 0.0",
+        "total > 0.0 ? 0.99 / total : 0.0",
+        _IDENTITIES,
+    ),
+    "transposed_gradient": Mutation(
+        "operator/sub_horizon.cpp",
+        "{s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]}",
+        "{s[6], s[9], s[12], s[7], s[10], s[13], s[8], s[11], s[14]}",
+        _IDENTITIES,
+    ),
+    "reversed_spin": Mutation(
+        "operator/bond_update.cpp",
+        "const Real quarter = 0.25 * time_step;",
+        "const Real quarter = -0.25 * time_step;",
+        _REFRESH,
+        header="operator/bond_update.hpp",
+    ),
+    "bond_state_lost_at_refresh": Mutation(
+        "operator/refresh.cpp",
+        "while (at < before.count && old_families",
+        "at = before.count;\nwhile (at < before.count && old_families",
+        _REFRESH,
+    ),
+    "image_reaction_not_mirrored": Mutation(
+        "operator/bond_forces.cpp", "if (j >= n)", "if (j >= n && false)", _IDENTITIES
+    ),
+    "pair_taken_for_sound": Mutation(
+        "operator/sub_horizon.cpp",
+        "det > singular_shape_quality * mean",
+        "det > 0.0 * mean",
+        "properties.degenerate_families_test",
+    ),
+}
+
+
+def _run(command: str, folder: Path) -> subprocess.CompletedProcess:
+    return subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def _must(command: str, folder: Path) -> str:
+    done = _run(command, folder)
+    if done.returncode != 0:
+        sys.exit(f"this command of the build failed:\n{command}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def _build_commands(build: Path, target: str) -> list[str]:
+    return _must(f"ninja -t commands {shlex.quote(target)}", build).strip().splitlines()
+
+
+def _write_mutated(mutation: Mutation, source: Path, folder: Path) -> Path:
+    """The mutated file, below `folder` as it was below framework/src."""
+    text = (source / "framework/src" / mutation.place).read_text()
+    if text.count(mutation.text) != 1:
+        sys.exit(f"{mutation.place} holds this {text.count(mutation.text)} times instead of once:\n{mutation.text}")
+    mutated = folder / mutation.place
+    mutated.parent.mkdir(parents=True, exist_ok=True)
+    mutated.write_text(text.replace(mutation.text, mutation.becomes))
+    # a header beside the source would be found before the mutated one: the source comes along
+    if mutation.header:
+        (folder / mutation.source).write_text((source / "framework/src" / mutation.source).read_text())
+    return folder / mutation.source
+
+
+def _compile(original: str, file: Path, folder: Path, commands: list[str], build: Path) -> Path:
+    """Compiles `file` with the command by which the build compiles `original`."""
+    command = next(c for c in commands if f"-c {original}" in c)
+    words = shlex.split(command)
+    words = [w for n, w in enumerate(words) if not w.startswith("-M") and words[n - 1] not in ("-MF", "-MT")]
+    output = folder / "mutated.o"
+    words[words.index("-o") + 1] = str(output)
+    words[words.index("-c") + 1] = str(file)
+    words.insert(1, f"-I{folder}")
+    words.append("-w")  # what a mutation leaves unused is no fault
+    _must(shlex.join(words), build)
+    return output
+
+
+def survives(name: str, source: Path, build: Path) -> bool:
+    """True when the test program passes all the same."""
+    mutation = MUTATIONS[name]
+    folder = build / "mutations" / name
+    commands = _build_commands(build, f"bin/{mutation.test}")
+    file = _write_mutated(mutation, source, folder)
+    mutated = _compile(str(source / "framework/src" / mutation.source), file, folder, commands, build)
+    program = folder / mutation.test
+    library = "framework/libperiporo_framework.a"
+    link = commands[-1].replace(library, f"{mutated} {library}", 1)
+    link = link.replace(f"-o bin/{mutation.test}", f"-o {program}", 1)
+    _must(link, build)
+    outcome = _run(str(program), build)
+    print(outcome.stdout[-3000:])
+    if outcome.returncode not in (0, 1) or "[doctest] test cases:" not in outcome.stdout:
+        sys.exit(f"{mutation.test} did not run to its end: status {outcome.returncode}\n{outcome.stderr}")
+    return outcome.returncode == 0
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--list", action="store_true", help="print the names of the mutations")
+    parser.add_argument("--source", type=Path, help="the source tree")
+    parser.add_argument("--build", type=Path, help="the build folder, a Ninja one")
+    parser.add_argument("name", nargs="?", choices=MUTATIONS)
+    options = parser.parse_args()
+    if options.list:
+        print("\n".join(MUTATIONS))
+        return 0
+    if survives(options.name, options.source, options.build):
+        print(f"{options.name}: {MUTATIONS[options.name].test} passes although the operator is broken")
+        return 1
+    print(f"{options.name}: noticed by {MUTATIONS[options.name].test}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
