@@ -306,20 +306,25 @@ void ContactForces::add_surface_friction(const Model& model, double time_step, s
     }
 }
 
-double ContactForces::frequency_squared(const Model& model) const
+ContactBound ContactForces::bound(const Model& model) const
 {
-    double largest = 0.0;
+    constexpr double slow = 1e-6; // [m/s]: the slope of the dashpot, however the law writes it
+    ContactBound largest;
     for (const ContactAssignment& assignment : assignments_) {
         const bool surface = assignment.law->surface() != nullptr;
+        const double partners = surface ? 1.0 : 12.0; // six, each moving against the point
         for (std::size_t i = 0; i < model.size(); ++i) {
             if (!names(assignment, model.points.body[i]))
                 continue;
             const double v = model.points.volume[i];
             const double m = model.points.mass[i];
-            const ContactPair pair{0.0, 0.0, v, surface ? 0.0 : v, m, surface ? 0.0 : m};
-            ContactResponse response;
-            assignment.law->evaluate({&pair, 1}, {&response, 1});
-            largest = std::max(largest, (surface ? 1.0 : 12.0) * response.stiffness / m);
+            const ContactPair pairs[2] = {{0.0, 0.0, v, surface ? 0.0 : v, m, surface ? 0.0 : m},
+                                          {0.0, slow, v, surface ? 0.0 : v, m, surface ? 0.0 : m}};
+            ContactResponse responses[2];
+            assignment.law->evaluate(pairs, responses);
+            largest.frequency_squared = std::max(largest.frequency_squared, partners * responses[0].stiffness / m);
+            largest.damping_rate =
+                std::max(largest.damping_rate, partners * (responses[1].force - responses[0].force) / (slow * m));
         }
     }
     return largest;

@@ -21,6 +21,12 @@ struct ContactAssignment {
     std::vector<std::uint32_t> bodies;
 };
 
+/// What contact alone asks of the step.
+struct ContactBound {
+    double frequency_squared = 0.0; ///< k/m, the largest [1/s2]
+    double damping_rate = 0.0;      ///< c/m of the dashpots, the largest [1/s]
+};
+
 /// Finds contacts and adds their forces. Each point sums its own contacts, both directions of a pair are evaluated with
 /// the same numbers, so that forces are opposite to the last bit and independent of threads.
 class ContactForces {
@@ -54,8 +60,8 @@ public:
     const std::vector<double>& grain_reach() const { return grain_reach_; }
     void set_grain_reach(std::vector<double> reach) { grain_reach_ = std::move(reach); }
 
-    /// A bound of omega^2 from contact alone, for the stable step [1/s2]: every law at full overlap with six partners.
-    double frequency_squared(const Model& model) const;
+    /// For the stable step: every law at full overlap, those between points with six partners.
+    ContactBound bound(const Model& model) const;
 
 private:
     struct SurfaceContact {

@@ -86,10 +86,11 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
 
     const Dynamics::State& dynamics = parts.dynamics.state();
     const EnergyLedger& ledger = dynamics.ledger;
-    const std::vector<double> reals{at.time,          at.stage_start,   at.time_step,       at.wall_seconds,
-                                    ledger.kinetic,   ledger.gravity,   ledger.stress_work, ledger.contact,
-                                    ledger.friction,  ledger.collision, ledger.opening,     dynamics.gravity_datum,
-                                    dynamics.residual};
+    const std::vector<double> reals{
+        at.time,           at.stage_start,       at.time_step,       at.wall_seconds,
+        ledger.kinetic,    ledger.gravity,       ledger.stress_work, ledger.contact,
+        ledger.friction,   ledger.collision,     ledger.opening,     dynamics.gravity_datum,
+        dynamics.residual, dynamics.force_scale, ledger.verlet,      dynamics.force_squared_per_mass};
     archive.put("reals", std::span<const double>(reals));
     std::vector<std::int64_t> integers{static_cast<std::int64_t>(at.stage),
                                        static_cast<std::int64_t>(at.stage_step),
@@ -163,6 +164,9 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     dynamics.ledger.opening = reals.at(10);
     dynamics.gravity_datum = reals.at(11);
     dynamics.residual = reals.at(12);
+    dynamics.force_scale = reals.at(13);
+    dynamics.ledger.verlet = reals.at(14);
+    dynamics.force_squared_per_mass = reals.at(15);
     dynamics.refreshes = static_cast<std::uint64_t>(integers.at(6));
     parts.dynamics.restore(dynamics);
 }

@@ -62,7 +62,7 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
                                               Influence::by_name(description.operators.influence, model.horizon));
     FrequencyEstimate frequency;
     const StableStep stable = stable_step(model, *force_state, ContactForces(std::move(built.contacts)), frequency, 40,
-                                          description.time.safety);
+                                          description.time.safety, true);
     const double step = description.time.step.value_or(stable.step);
 
     std::string text = fmt::format("{}\n", description.title);

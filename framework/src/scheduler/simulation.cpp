@@ -182,8 +182,9 @@ void Simulation::renew_step(int iterations)
         at_.time_step = *description_.time.step;
         return;
     }
-    StableStep stable = stable_step(model_, *force_state_, contact_, frequency_, iterations, description_.time.safety);
     const StageDescription& stage = description_.stages[at_.stage];
+    StableStep stable = stable_step(model_, *force_state_, contact_, frequency_, iterations, description_.time.safety,
+                                    !is_quasi_static(stage));
     if (is_quasi_static(stage))
         stable.step *= local_damping_factor(stage.damping);
     const bool news = std::abs(stable.step - at_.time_step) > 0.1 * at_.time_step;
@@ -213,14 +214,15 @@ bool Simulation::quasi_static(const StageDescription& stage)
     StepOptions options;
     options.local_damping = stage.damping;
     options.response = stage.response == "elastic" ? MaterialResponse::elastic : MaterialResponse::full;
-    // At rest means slower than one would become by falling over one spacing, by the tolerance of the residual.
-    const double rest = stage.residual * std::sqrt(model_.gravity.norm() * model_.spacing);
-    while (at_.stage_step == 0 || dynamics_.residual() > stage.residual || dynamics_.mean_speed() > rest) {
+    // At rest means slower than one would become by falling over one spacing, by the tolerance of the residual. Without
+    // gravity the unbalanced force at the start sets the acceleration.
+    const auto rest = [&] { return stage.residual * std::sqrt(dynamics_.acceleration_scale() * model_.spacing); };
+    while (at_.stage_step == 0 || dynamics_.residual() > stage.residual || dynamics_.mean_speed() > rest()) {
         if (at_.stage_step >= static_cast<std::uint64_t>(stage.maximum_steps))
             fail(fmt::format("no equilibrium after {} steps: residual {:.2e} (wanted {:.2e}), mean speed {:.2e} m/s "
                              "(wanted {:.2e}); raise maximum_steps, or until.residual, or look for a body that nothing "
                              "holds",
-                             at_.stage_step, dynamics_.residual(), stage.residual, dynamics_.mean_speed(), rest));
+                             at_.stage_step, dynamics_.residual(), stage.residual, dynamics_.mean_speed(), rest()));
         take_step(options);
         progress_.update([&] {
             return fmt::format("{}: step {}, residual {:.2e} of {:.2e}", stage.name, at_.stage_step,

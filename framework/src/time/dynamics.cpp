@@ -24,11 +24,13 @@ void Dynamics::refresh()
 
 void Dynamics::start()
 {
+    state_.force_scale = 0.0;
     apply_held(model_.points.velocity);
     model_.update_records();
     contact_.find_candidates(model_, settings_.skin);
     force_state_.evaluate(model_, {StressUpdate::keep, MaterialResponse::full, 0.0});
     sum_forces({});
+    state_.force_squared_per_mass = force_squared_per_mass();
 }
 
 void Dynamics::step(const StepOptions& options)
@@ -58,6 +60,9 @@ void Dynamics::step(const StepOptions& options)
     ledger.kinetic = kinetic_energy();
     ledger.gravity = gravity_energy() - state_.gravity_datum;
     ledger.contact = contact_.energy();
+    const double last_lent = state_.force_squared_per_mass;
+    state_.force_squared_per_mass = force_squared_per_mass();
+    ledger.verlet -= 0.125 * dt * dt * (state_.force_squared_per_mass - last_lent);
     for (std::size_t i = 0; i < n; ++i) {
         ledger.stress_work += model_.stress_work[i];
         ledger.friction -= dt * contact_.friction()[i].dot(points.velocity[i]);
@@ -82,7 +87,8 @@ void Dynamics::sum_forces(const StepOptions& options)
         unbalanced += points.force[i].squaredNorm();
         weight += points.mass[i] * points.mass[i] * model_.gravity.squaredNorm();
     }
-    state_.residual = weight > 0.0 ? std::sqrt(unbalanced / weight) : 0.0;
+    state_.force_scale = weight > 0.0 ? std::sqrt(weight) : std::max(state_.force_scale, std::sqrt(unbalanced));
+    state_.residual = state_.force_scale > 0.0 ? std::sqrt(unbalanced) / state_.force_scale : 0.0;
     if (options.local_damping > 0.0) {
         for (std::size_t i = 0; i < n; ++i)
             for (Eigen::Index c = 0; c < 3; ++c) {
@@ -92,6 +98,14 @@ void Dynamics::sum_forces(const StepOptions& options)
             }
         apply_held(points.force);
     }
+}
+
+double Dynamics::force_squared_per_mass() const
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < model_.size(); ++i)
+        sum += model_.points.force[i].squaredNorm() / model_.points.mass[i];
+    return sum;
 }
 
 void Dynamics::apply_held(std::vector<Vector3>& vectors) const
@@ -124,6 +138,14 @@ double Dynamics::gravity_energy() const
     for (std::size_t i = 0; i < model_.size(); ++i)
         sum -= model_.points.mass[i] * model_.gravity.dot(model_.points.position[i]);
     return sum;
+}
+
+double Dynamics::acceleration_scale() const
+{
+    double squared_mass = 0.0;
+    for (const double m : model_.points.mass)
+        squared_mass += m * m;
+    return squared_mass > 0.0 ? state_.force_scale / std::sqrt(squared_mass) : 0.0;
 }
 
 double Dynamics::mean_speed() const

@@ -57,13 +57,18 @@ public:
         EnergyLedger ledger;
         double gravity_datum = 0.0; ///< gravity energy when the ledger was opened [J]
         double residual = 0.0;
+        double force_scale = 0.0;            ///< that the residual is relative to [N]
+        double force_squared_per_mass = 0.0; ///< sum |F|^2/m at the last evaluation [N2/kg]
         std::uint64_t refreshes = 0;
     };
     const State& state() const { return state_; }
     void restore(const State& state) { state_ = state; }
 
-    /// |internal + contact + friction + gravity force|/|gravity force|, root sums over all points, without damping. [-]
+    /// |internal + contact + friction + gravity force|/|gravity force|, root sums over all points, without damping [-].
+    /// Without gravity it is relative to the largest unbalanced force since start().
     double residual() const { return state_.residual; }
+    /// The force that the residual is relative to, per mass, as a root mean square over the points [m/s2].
+    double acceleration_scale() const;
     /// sqrt(2 E_kin/m) over all points [m/s].
     double mean_speed() const;
     std::uint64_t refreshes() const { return state_.refreshes; }
@@ -71,6 +76,7 @@ public:
 private:
     void sum_forces(const StepOptions& options);
     void apply_held(std::vector<Vector3>& vectors) const;
+    double force_squared_per_mass() const;
     double kinetic_energy() const;
     double gravity_energy() const;
 

@@ -117,12 +117,13 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, in
 }
 
 StableStep stable_step(Model& model, const ForceState& force_state, const ContactForces& contact,
-                       FrequencyEstimate& estimate, int iterations, double safety)
+                       FrequencyEstimate& estimate, int iterations, double safety, bool damped)
 {
     StableStep result;
     result.frequency = estimate.update(model, force_state, iterations);
-    const double contact_squared = contact.frequency_squared(model);
-    result.contact_frequency = std::sqrt(contact_squared);
+    const ContactBound contact_bound = contact.bound(model);
+    result.contact_frequency = std::sqrt(contact_bound.frequency_squared);
+    result.damping_rate = damped ? contact_bound.damping_rate : 0.0;
     result.wave_limit = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < model.size(); ++i) {
         const Material& material = *model.body_of(i).material;
@@ -130,9 +131,15 @@ StableStep stable_step(Model& model, const ForceState& force_state, const Contac
         const double speed = std::sqrt((material.bulk_modulus() + 4.0 / 3.0 * material.shear_modulus()) / density);
         result.wave_limit = std::min(result.wave_limit, 1.5 * model.spacing / speed);
     }
-    const double squared = result.frequency * result.frequency + contact_squared;
-    result.step = std::min(squared > 0.0 ? safety * 2.0 / std::sqrt(squared) : result.wave_limit, result.wave_limit);
+    const double squared = result.frequency * result.frequency + contact_bound.frequency_squared;
+    const double limit = squared > 0.0 ? damped_limit(squared, result.damping_rate) : result.wave_limit;
+    result.step = std::min(safety * limit, result.wave_limit);
     return result;
+}
+
+double damped_limit(double frequency_squared, double damping_rate)
+{
+    return (std::sqrt(damping_rate * damping_rate + 4.0 * frequency_squared) - damping_rate) / frequency_squared;
 }
 
 double local_damping_factor(double coefficient)

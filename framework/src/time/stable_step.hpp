@@ -16,6 +16,7 @@ namespace periporo {
 struct StableStep {
     double frequency = 0.0;         ///< estimate of the largest angular frequency of the operator [rad/s]
     double contact_frequency = 0.0; ///< bound from contact [rad/s]
+    double damping_rate = 0.0;      ///< bound of c/m of the dashpots of contacts [1/s]
     double wave_limit = 0.0;        ///< 1.5 dx/c_p [s]
     double step = 0.0;              ///< [s]
 };
@@ -40,13 +41,21 @@ private:
     std::vector<Vector3> mode_;
 };
 
-/// step = min(safety * 2/sqrt(omega^2 + omega_contact^2), 1.5 dx/c_p) with c_p = sqrt((K + 4G/3)/rho), the fastest
-/// of the bodies. The second is the wave-speed rule; the sum bounds the frequency of operator and contact together.
+/// step = min(safety * limit, 1.5 dx/c_p) with the limit of a damped oscillator at omega^2 + omega_contact^2, which
+/// bounds operator and contact together, and c_p = sqrt((K + 4G/3)/rho), the fastest of the bodies.
+/// @param damped whether the dashpots of contacts act
 StableStep stable_step(Model& model, const ForceState& force_state, const ContactForces& contact,
-                       FrequencyEstimate& estimate, int iterations, double safety);
+                       FrequencyEstimate& estimate, int iterations, double safety, bool damped);
 
-/// What Cundall's local damping leaves of the stable step, (1 + alpha)^(-1/2): where force and velocity oppose each other
-/// it multiplies the force by 1 + alpha, and so the stiffness.
+/// The longest step of u" + c u' + omega^2 u = 0 in leapfrog steps whose damping force takes the last mid-step
+/// velocity: omega^2 dt^2 + 2 c dt = 4, from the root -1 of z^2 - (2 - omega^2 dt^2 - c dt) z + 1 - c dt. 2/omega
+/// without damping.
+/// @param frequency_squared omega^2 > 0 [1/s2]
+/// @param damping_rate c [1/s]
+double damped_limit(double frequency_squared, double damping_rate);
+
+/// What Cundall's local damping leaves of the stable step, (1 + alpha)^(-1/2): where force and velocity oppose each
+/// other it multiplies the force by 1 + alpha, and so the stiffness.
 double local_damping_factor(double coefficient);
 
 } // namespace periporo

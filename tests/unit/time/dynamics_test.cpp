@@ -59,7 +59,7 @@ TEST_CASE("a vibrating elastic block keeps its energy, stress work found apart f
         find_first_families(model);
         for (std::size_t i = 0; i < model.size(); ++i)
             model.points.velocity[i] =
-                Vector3(0.01 * std::cos(std::numbers::pi * model.points.position[i].x() / (6 * dx)), 0.0, 0.0);
+                Vector3(1e-5 * std::cos(std::numbers::pi * model.points.position[i].x() / (6 * dx)), 0.0, 0.0);
         const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
         ContactForces contact({});
         Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
@@ -72,8 +72,8 @@ TEST_CASE("a vibrating elastic block keeps its energy, stress work found apart f
             worst = std::max(worst, std::abs(dynamics.ledger().error()));
             least_kinetic = std::min(least_kinetic, dynamics.ledger().kinetic);
         }
-        // (omega dt)^2/8 of the motion that is there, omega about c_p/(length/pi) = 1.4e4 1/s: 1 per cent of a per cent
-        CHECK(worst < 2e-2 * dynamics.ledger().opening);
+        // round-off but for the energy of third order in the strain, v/c = 2e-7, over a few periods
+        CHECK(worst < 1e-6 * dynamics.ledger().opening);
         CHECK(least_kinetic < 0.5 * dynamics.ledger().opening); // energy went into stress and came back
     }
 }

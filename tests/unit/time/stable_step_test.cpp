@@ -112,3 +112,21 @@ TEST_CASE("a block in its highest mode settles under local damping at the step t
     CHECK_FALSE(grows(0.95));
     CHECK(grows(1.1));
 }
+
+TEST_CASE("a damped oscillator in leapfrog steps is stable just below the limit and not just above it")
+{
+    const double omega_squared = 9.0, damping = 2.5;
+    const auto largest = [&](double factor) {
+        const double dt = factor * damped_limit(omega_squared, damping);
+        double x = 1.0, v = 0.0, reached = 0.0; // v of the last mid-step
+        for (int step = 0; step < 4000; ++step) {
+            v += dt * (-omega_squared * x - damping * v);
+            x += dt * v;
+            reached = step < 2000 ? reached : std::max(reached, std::abs(x));
+        }
+        return reached;
+    };
+    CHECK(largest(0.99) < 1e-3);
+    CHECK(largest(1.01) > 1e3);
+    CHECK(damped_limit(omega_squared, 0.0) == doctest::Approx(2.0 / 3.0).epsilon(1e-15));
+}
