@@ -56,6 +56,7 @@ BodyDescription body_of(const CheckedTable& table)
     body.suction = table.own.real("suction");
     body.saturation = table.own.real("saturation");
     body.velocity = vector_of(table.own.real_list("velocity"));
+    body.angular_velocity = vector_of(table.own.real_list("angular_velocity"));
     body.initial_stress = initial_stress_of(table.one("initial_stress"));
     return body;
 }

@@ -90,9 +90,6 @@ void check_contacts(const CheckedTable& root, Diagnostics& diagnostics)
 
 void check_stages(const CheckedTable& root, Diagnostics& diagnostics)
 {
-    const auto* gravity = value_of<std::vector<double>>(root, "gravity");
-    const bool weightless =
-        gravity != nullptr && std::all_of(gravity->begin(), gravity->end(), [](double g) { return g == 0.0; });
     std::set<std::string> names;
     for (const CheckedTable& stage : root.all("stage")) {
         const auto* name = value_of<std::string>(stage, "name");
@@ -101,11 +98,6 @@ void check_stages(const CheckedTable& root, Diagnostics& diagnostics)
         else if (name != nullptr && !names.insert(*name).second)
             diagnostics.error(stage.place_of("name"), fmt::format("a stage '{}' came before", *name),
                               "names of stages must differ: results and overrides use them");
-        const auto* type = value_of<std::string>(stage, "type");
-        if (weightless && type != nullptr && *type == "quasi_static")
-            diagnostics.error(stage.place_of("type"),
-                              "a quasi_static stage needs gravity: its residual is relative to it",
-                              "give 'gravity', or leave the stage out");
     }
 }
 

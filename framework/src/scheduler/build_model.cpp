@@ -5,6 +5,7 @@
 
 #include "operator/bond_update.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -62,6 +63,9 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
                                             difference > 0.0 ? "more" : "less"));
     Points& points = built.model.points;
     const double density = mixture_density(description, body);
+    Vector3 centre = Vector3::Zero();
+    for (std::size_t p = 0; p < cloud.positions.size(); ++p)
+        centre += cloud.volumes[p] / filled * cloud.positions[p];
     std::size_t cut = 0;
     for (std::size_t p = 0; p < cloud.positions.size(); ++p) {
         if (!kept(description, cloud.positions[p])) {
@@ -71,7 +75,7 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         const std::size_t i = points.size();
         points.resize(i + 1);
         points.position[i] = points.initial_position[i] = cloud.positions[p];
-        points.velocity[i] = body.velocity;
+        points.velocity[i] = body.velocity + body.angular_velocity.cross(cloud.positions[p] - centre);
         points.volume[i] = points.initial_volume[i] = cloud.volumes[p];
         points.mass[i] = density * cloud.volumes[p];
         points.suction[i] = body.suction;

@@ -155,6 +155,7 @@ material = "soil"
 suction = "20 kPa"
 saturation = 0.3
 velocity = [0, "1 mm/s", 0]
+angular_velocity = [0, 0, "2 rad/s"]
 initial_stress = { type = "geostatic", K0 = 0.53, overconsolidation_ratio = 1.25 }
 [body.bubble]
 geometry = { generator = "test_shell", inner = "1 mm", outer = "2 mm" }

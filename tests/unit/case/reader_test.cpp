@@ -113,6 +113,7 @@ TEST_CASE("a body knows geometry, material, water, velocity and initial stress")
     CHECK(body.suction == 20e3);
     CHECK(body.saturation == 0.3);
     CHECK(body.velocity == Vector3(0.0, 0.001, 0.0));
+    CHECK(body.angular_velocity == Vector3(0.0, 0.0, 2.0));
     CHECK(body.initial_stress.type == "geostatic");
     CHECK(body.initial_stress.lateral_coefficient == 0.53);
     CHECK(body.initial_stress.overconsolidation_ratio == 1.25);

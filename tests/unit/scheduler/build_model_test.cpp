@@ -47,6 +47,18 @@ TEST_CASE("water in the pores counts in the mass: rho = rho_s (1 - phi) + S_r ph
     CHECK(points.mass[0] / points.volume[0] == doctest::Approx(2200.0 * 0.8 + 0.5 * 0.2 * 1000.0).epsilon(1e-12));
 }
 
+TEST_CASE("a spinning body has v = v0 + omega x (x - centre of mass)")
+{
+    const BuiltModel model = built(
+        quickstart({"body.column.velocity=[\"1 m/s\", 0, 0]", "body.column.angular_velocity=[0, 0, \"3 rad/s\"]"}));
+    const Points& points = model.model.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vector3 expected =
+            Vector3(1, 0, 0) + Vector3(0, 0, 3).cross(points.position[i] - Vector3(0.05, 0.05, 0.06));
+        REQUIRE((points.velocity[i] - expected).norm() < 1e-14); // round-off of 0.3 m/s
+    }
+}
+
 TEST_CASE("a body behind a symmetry plane is cut, and the remark says so")
 {
     const BuiltModel model = built(quickstart({"body.column.geometry.size=[\"200 mm\", \"100 mm\", \"120 mm\"]",
