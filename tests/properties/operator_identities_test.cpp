@@ -244,3 +244,38 @@ TEST_CASE("a quarter with symmetry planes has the forces of the full model")
         CHECK(worst < 1e-10 * largest);
     });
 }
+
+TEST_CASE("a periodic slab one spacing thick has the forces of the middle of a wide one")
+{
+    const auto velocity = [](const Vector3& x) {
+        return Vector3(std::sin(70.0 * x.x()) * x.z(), 0.3 * std::cos(90.0 * x.z()), x.x() - 20.0 * x.z() * x.z());
+    };
+    // the same jitter in every layer, none across
+    std::vector<Vector3> layer = jittered(lattice(6, 1, 5, dx), dx, 0.2);
+    for (Vector3& x : layer)
+        x.y() = 0.5 * dx;
+    constexpr int layers = 19; // bond_projection feels a surface three horizons away
+    std::vector<Vector3> layered;
+    for (int k = 0; k < layers; ++k)
+        for (const Vector3& x : layer)
+            layered.push_back(x + Vector3(0.0, (k - layers / 2) * dx, 0.0));
+    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
+        CAPTURE(state);
+        CAPTURE(influence);
+        Model wide = from_positions(layered, dx);
+        Model slab = from_positions(layer, dx);
+        slab.isometries.set_generators({Isometry::shift(1, dx)});
+        for (Model* model : {&wide, &slab}) {
+            find_first_families(*model);
+            set_velocity(*model, velocity);
+            force.evaluate(*model, {StressUpdate::advance, MaterialResponse::full, 1e-3});
+        }
+        double worst = 0.0, largest = 0.0;
+        for (std::size_t i = 0; i < slab.size(); ++i) {
+            const Vector3& middle = wide.internal_force[layers / 2 * layer.size() + i];
+            worst = std::max(worst, (slab.internal_force[i] - middle).norm());
+            largest = std::max(largest, middle.norm());
+        }
+        CHECK(worst < 1e-11 * largest);
+    });
+}
