@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace periporo {
@@ -30,15 +31,6 @@ bool between_two_bodies(const ContactAssignment& assignment)
     return assignment.law->surface() == nullptr && assignment.bodies.size() == 2 && !within_one_body(assignment);
 }
 
-Vector3 position(const NeighbourRecord& record)
-{
-    return {record.position[0], record.position[1], record.position[2]};
-}
-Vector3 velocity(const NeighbourRecord& record)
-{
-    return {record.velocity[0], record.velocity[1], record.velocity[2]};
-}
-
 } // namespace
 
 void ContactForces::find_candidates(const Model& model, double slack)
@@ -50,7 +42,8 @@ void ContactForces::find_candidates(const Model& model, double slack)
             continue;
         // Images were made within the horizon; a cut-off is shorter than that.
         std::vector<Vector3> positions(model.records.size());
-        std::transform(model.records.begin(), model.records.end(), positions.begin(), position);
+        std::transform(model.records.begin(), model.records.end(), positions.begin(),
+                       [](const NeighbourRecord& record) { return record.x(); });
         const double reach = assignments_[a].law->cutoff() + slack;
         const CellList cells(positions, reach);
         Candidates& candidates = candidates_[a];
@@ -73,10 +66,10 @@ template <class Neighbours, class Reach>
 void ContactForces::count_contacts(const Model& model, std::uint32_t point, const Neighbours& neighbours,
                                    const Reach& reach)
 {
-    const Vector3 x = position(model.records[point]);
+    const Vector3 x = model.records[point].x();
     contacts_of_[point] =
         static_cast<std::uint32_t>(std::count_if(neighbours.begin(), neighbours.end(), [&](std::uint32_t c) {
-            const double distance = (x - position(model.records[c])).norm();
+            const double distance = (x - model.records[c].x()).norm();
             return distance < reach(model.families.parent(c)) && distance > 0.0;
         }));
 }
@@ -92,8 +85,8 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
     std::array<Vector3, block> slips;
     std::array<double, block> crowds; // contacts of the end that has more of them: each stops its share of the slip
     const Points& points = model.points;
-    const Vector3 x = position(model.records[point]);
-    const Vector3 v = velocity(model.records[point]);
+    const Vector3 x = model.records[point].x();
+    const Vector3 v = model.records[point].v();
     std::size_t count = 0;
     const auto flush = [&] {
         law.evaluate(std::span(pairs.data(), count), std::span(responses.data(), count));
@@ -115,14 +108,14 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
         count = 0;
     };
     for (const std::uint32_t c : neighbours) {
-        const Vector3 apart = x - position(model.records[c]);
+        const Vector3 apart = x - model.records[c].x();
         const double distance = apart.norm();
         const std::uint32_t p = model.families.parent(c);
         const double touching = reach(p);
         if (distance >= touching || distance <= 0.0)
             continue;
         const Vector3 normal = apart / distance;
-        const Vector3 relative = v - velocity(model.records[c]);
+        const Vector3 relative = v - model.records[c].v();
         const double opening = relative.dot(normal);
         pairs[count] = {distance + (law.cutoff() - touching),
                         -approach_factor_ * opening,
@@ -163,21 +156,22 @@ void ContactForces::add_pairs(const Model& model, std::size_t assignment, double
 
 void ContactForces::update_grain_reach(const Model& model, const ContactAssignment& assignment)
 {
-    grain_reach_.resize(model.size(), -1.0);
+    const double cutoff = assignment.law->cutoff();
+    grain_reach_.resize(model.size(), -std::numeric_limits<double>::infinity());
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < model.size(); ++i) {
-        if (model.points.body[i] != assignment.bodies[0])
+        double& reach = grain_reach_[i];
+        const bool loose = model.free_grain[i] != 0;
+        if (model.points.body[i] != assignment.bodies[0] || (!loose && reach <= -cutoff))
             continue;
-        if (model.free_grain[i] == 0) {
-            grain_reach_[i] = -1.0;
-            continue;
-        }
-        double nearest = assignment.law->cutoff();
+        double nearest = cutoff;
         const FamilyView family = model.families[i];
-        for (std::size_t b = 0; b < family.count; ++b)
-            nearest =
-                std::min(nearest, (position(model.records[family.neighbours[b]]) - model.points.position[i]).norm());
-        grain_reach_[i] = std::max(grain_reach_[i], nearest);
+        for (const std::uint32_t c : std::span(family.neighbours, family.count))
+            if (loose || model.free_grain[model.families.parent(c)] != 0)
+                nearest = std::min(nearest, (model.records[c].x() - model.points.position[i]).norm());
+        const bool just_came_loose = loose && reach < 0.0;
+        const double size = just_came_loose ? nearest : std::max(std::abs(reach), nearest);
+        reach = loose ? size : -size;
     }
 }
 
@@ -215,8 +209,7 @@ void ContactForces::add_free_grains(const Model& model, const ContactAssignment&
                     if (model.free_grain[i] != 0 || model.free_grain[model.families.parent(family.neighbours[b])] != 0)
                         partners.push_back(family.neighbours[b]);
                 visit(i, partners, [&, i](std::uint32_t other) {
-                    const double own = grain_reach_[i] < 0.0 ? assignment.law->cutoff() : grain_reach_[i];
-                    return grain_reach_[other] < 0.0 ? own : std::min(own, grain_reach_[other]);
+                    return std::min(std::abs(grain_reach_[i]), std::abs(grain_reach_[other]));
                 });
             }
         }

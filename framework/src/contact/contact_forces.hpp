@@ -56,7 +56,8 @@ public:
     /// Friction force on each point at the last step [N].
     const std::vector<Vector3>& friction() const { return friction_; }
 
-    /// Reach of each free grain; negative for a bonded point. Empty before the first step.
+    /// Reach of each point against free grains [m]; below zero while the point is bonded, without limit if it always
+    /// was. Empty before the first step.
     const std::vector<double>& grain_reach() const { return grain_reach_; }
     void set_grain_reach(std::vector<double> reach) { grain_reach_ = std::move(reach); }
 
@@ -100,7 +101,9 @@ private:
     std::vector<Vector3> damping_;
     /// A grain that comes loose among others takes the room it finds: its reach starts at the distance of its nearest
     /// neighbour and grows, up to the cut-off, as it moves away. With the whole cut-off at once the overlap it is born
-    /// with would be energy from nowhere: in a trial 15 per cent of the energy of the collapse from a single grain.
+    /// with would be energy from nowhere: in a trial 15 per cent of the energy of the collapse from a single grain. It
+    /// keeps that reach against other grains when it bonds again: a pair that had the reach of one end must not find
+    /// itself overlapping with that of the other (in a sliding sheet 4 per cent of the energy from two grains).
     std::vector<double> grain_reach_;
     double energy_ = 0.0;
     double approach_factor_ = 1.0; ///< 0 for Approach::none

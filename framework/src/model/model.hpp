@@ -31,6 +31,9 @@ struct alignas(64) NeighbourRecord {
     double volume;
     double velocity[3];
     double unused;
+
+    Vector3 x() const { return {position[0], position[1], position[2]}; }
+    Vector3 v() const { return {velocity[0], velocity[1], velocity[2]}; }
 };
 
 /// What bonds carry: stress and internal variables from step to step, the force state within one.

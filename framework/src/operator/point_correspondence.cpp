@@ -12,15 +12,6 @@
 namespace periporo {
 namespace {
 
-Vector3 position(const NeighbourRecord& record)
-{
-    return {record.position[0], record.position[1], record.position[2]};
-}
-Vector3 velocity(const NeighbourRecord& record)
-{
-    return {record.velocity[0], record.velocity[1], record.velocity[2]};
-}
-
 struct PointKinematics {
     Eigen::Matrix3d inverse_shape = Eigen::Matrix3d::Zero(); ///< K_i^-1, zero where it does not exist
     Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();      ///< L_i
@@ -36,10 +27,10 @@ PointKinematics point_kinematics(const Model& model, std::size_t point, const Fa
     double weights = 0.0;
     for (std::size_t b = 0; b < family.count; ++b) {
         const NeighbourRecord& other = model.records[family.neighbours[b]];
-        const Vector3 zeta = position(other) - position(self);
+        const Vector3 zeta = other.x() - self.x();
         const double weight = influence(zeta.squaredNorm()) * other.volume;
         shape += weight * zeta * zeta.transpose();
-        moment += weight * (velocity(other) - velocity(self)) * zeta.transpose();
+        moment += weight * (other.v() - self.v()) * zeta.transpose();
         weights += weight;
     }
     PointKinematics result;
@@ -110,7 +101,7 @@ void PointCorrespondenceForceState::evaluate(Model& model, const Evaluation& eva
             const Eigen::Matrix3d moment = mean_stress(family, stress) * point.inverse_shape;
             double* force_state = model.bonds.force_state.data() + family.first_pack * 3 * pack_width;
             for (std::size_t b = 0; b < family.count; ++b) {
-                const Vector3 zeta = position(model.records[family.neighbours[b]]) - position(model.records[i]);
+                const Vector3 zeta = model.records[family.neighbours[b]].x() - model.records[i].x();
                 const Vector3 t = influence()(zeta.squaredNorm()) * (moment * zeta);
                 for (std::size_t c = 0; c < 3; ++c)
                     force_state[(b / pack_width * 3 + c) * pack_width + b % pack_width] =

@@ -32,7 +32,7 @@ public:
           normal_(vector(parameters.real_list("normal")))
     {
         const double length = normal_.stableNorm();
-        if (!(length > 0.0) || !std::isfinite(length))
+        if (!normal_.allFinite() || !(length > 0.0))
             throw std::invalid_argument("normal must be a direction: three numbers that are not all zero");
         normal_ /= length;
     }
