@@ -21,6 +21,9 @@ struct StateVariable {
     std::string description;
     double initial = 0.0;
     bool reset_on_release = false; ///< back to `initial` after the geostatic stage, as accumulated strains are
+    /// A property of the place and not of a direction, as density is: the bonds of a point start from its one value
+    /// whenever families are found anew, and hand their mean change back to it.
+    bool of_point = false;
 };
 
 /// How a block of bonds is to be updated.

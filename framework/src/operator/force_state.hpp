@@ -72,6 +72,9 @@ public:
     /// inactive. `shares` has pack_width values a pack of the family. Records and activity must be current.
     virtual void shares(const Model& model, std::size_t point, std::span<double> shares) const = 0;
 
+    /// Do (i,j) and (j,i) carry one state? Then what their ends differ in is met half-way.
+    virtual bool symmetric_bonds() const { return false; }
+
 private:
     Influence influence_;
 };

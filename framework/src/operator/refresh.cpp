@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace periporo {
@@ -32,6 +33,44 @@ template <class Bonds>
 auto* bond_rows(Bonds& bonds, std::size_t point, std::size_t rows, std::size_t b)
 {
     return bonds.state.data() + bonds.first[point] + b / pack_width * rows * pack_width + b % pack_width;
+}
+
+/// For each body its rows that hold variables of the point (StateVariable::of_point).
+std::vector<std::vector<std::size_t>> point_rows(const Model& model)
+{
+    std::vector<std::vector<std::size_t>> rows(model.bodies.size());
+    for (std::size_t body = 0; body < model.bodies.size(); ++body) {
+        const std::vector<StateVariable>& variables = model.bodies[body].material->state_variables();
+        for (std::size_t s = 0; s < variables.size(); ++s)
+            if (variables[s].of_point)
+                rows[body].push_back(6 + s);
+    }
+    return rows;
+}
+
+/// What a variable of the point begins with on a bond: the point's own value, or where (i,j) and (j,i) are one bond,
+/// the mean of its ends.
+double begun_with(const Model& model, const ForceState& force_state, std::size_t point, std::uint32_t neighbour,
+                  std::size_t row)
+{
+    const double own = model.point_state[point * model.state_stride + row];
+    if (!force_state.symmetric_bonds())
+        return own;
+    return 0.5 * (own + model.point_state[model.families.parent(neighbour) * model.state_stride + row]);
+}
+
+/// Every bond takes its point variables from its point.
+void hand_out_point_variables(Model& model, const ForceState& force_state)
+{
+    const std::vector<std::vector<std::size_t>> of_point = point_rows(model);
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const FamilyView family = model.families[i];
+        for (const std::size_t r : of_point[model.points.body[i]])
+            for (std::size_t b = 0; b < family.packs * pack_width; ++b)
+                bond_rows(model.bonds, i, model.rows(i), b)[r * pack_width] =
+                    begun_with(model, force_state, i, family.neighbours[b], r);
+    }
 }
 
 } // namespace
@@ -62,8 +101,31 @@ void find_first_families(Model& model)
     model.update_records();
 }
 
+void collect_point_variables(Model& model, const ForceState& force_state)
+{
+    const std::vector<std::vector<std::size_t>> of_point = point_rows(model);
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const FamilyView family = model.families[i];
+        if (family.count == 0 || of_point[model.points.body[i]].empty())
+            continue;
+        shares.resize(family.packs * pack_width);
+        force_state.shares(model, i, shares);
+        if (std::accumulate(shares.begin(), shares.end(), 0.0) == 0.0)
+            std::fill_n(shares.begin(), family.count, 1.0 / static_cast<double>(family.count));
+        for (const std::size_t r : of_point[model.points.body[i]]) {
+            double& value = model.point_state[i * model.state_stride + r];
+            value = 0.0;
+            for (std::size_t b = 0; b < family.count; ++b)
+                value += shares[b] * bond_rows(model.bonds, i, model.rows(i), b)[r * pack_width];
+        }
+    }
+    hand_out_point_variables(model, force_state);
+}
+
 void mean_point_states(const Model& model, const ForceState& force_state, std::vector<double>& states)
 {
+    const std::vector<std::vector<std::size_t>> of_point = point_rows(model);
 #pragma omp parallel
     {
         std::vector<double> shares;
@@ -84,6 +146,13 @@ void mean_point_states(const Model& model, const ForceState& force_state, std::v
                 for (std::size_t r = 0; r < rows; ++r)
                     state[r] += shares[b] * bond[r * pack_width];
             }
+            for (const std::size_t r : of_point[model.points.body[i]]) {
+                double change = 0.0;
+                for (std::size_t b = 0; b < family.count; ++b)
+                    change += shares[b] * (bond_rows(model.bonds, i, rows, b)[r * pack_width] -
+                                           begun_with(model, force_state, i, family.neighbours[b], r));
+                state[r] = model.point_state[i * model.state_stride + r] + change;
+            }
         }
     }
 }
@@ -91,7 +160,9 @@ void mean_point_states(const Model& model, const ForceState& force_state, std::v
 void refresh_families(Model& model, const ForceState& force_state)
 {
     model.update_records();
-    mean_point_states(model, force_state, model.point_state);
+    std::vector<double> states = model.point_state;
+    mean_point_states(model, force_state, states);
+    model.point_state.swap(states);
     const Families old_families =
         std::exchange(model.families, Families::find(model.points, model.isometries, model.horizon));
     BondData old_bonds = std::exchange(model.bonds, BondData{});
@@ -130,6 +201,7 @@ void refresh_families(Model& model, const ForceState& force_state)
             }
         }
     }
+    hand_out_point_variables(model, force_state);
     model.update_records();
 }
 

@@ -15,10 +15,17 @@ void find_first_families(Model& model);
 /// Families from the current positions. A bond that was active and is still there keeps its state; any other bond
 /// (i,j) takes the mean of the point states of i and j, a point state being the share-weighted mean over the active
 /// bonds of the point. A point without active bonds remembers its state variables and has zero stress.
+///
+/// Variables of the point (StateVariable::of_point) are evened out: the point's value has moved by the mean change of
+/// its bonds, and all its bonds go on from it (begin from the mean of both ends where the force state is symmetric; the
+/// points' own values do not mix, so nothing diffuses).
 void refresh_families(Model& model, const ForceState& force_state);
 
-/// Mean states of all points from their bonds, laid out like Model::point_state, which `states` must start from: a free
-/// grain keeps its state variables there.
+/// Sets the variables of the points to the mean of their bonds and evens these out: after they were set bond by bond.
+void collect_point_variables(Model& model, const ForceState& force_state);
+
+/// States of all points as their bonds have them now, laid out like Model::point_state, which `states` must start from:
+/// a free grain keeps its state variables there.
 void mean_point_states(const Model& model, const ForceState& force_state, std::vector<double>& states);
 
 /// Lays out the bond data for the families of the model, values not set.

@@ -4,6 +4,7 @@
 #include "scheduler/build_model.hpp"
 
 #include "operator/bond_update.hpp"
+#include "operator/refresh.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -201,7 +202,7 @@ std::vector<HeldDirection> held_by_rollers(const Model& model, const StageDescri
     return held;
 }
 
-void initialize_materials(Model& model)
+void initialize_materials(Model& model, const ForceState& force_state)
 {
     StressWorkspace workspace;
     for (std::size_t i = 0; i < model.size(); ++i) {
@@ -215,9 +216,10 @@ void initialize_materials(Model& model)
         batch.saturation = workspace.saturation.data();
         model.body_of(i).material->initialize(batch, model.body_of(i).overconsolidation_ratio);
     }
+    collect_point_variables(model, force_state);
 }
 
-void set_initial_stress(Model& model, const CaseDescription& description)
+void set_initial_stress(Model& model, const ForceState& force_state, const CaseDescription& description)
 {
     const double g = model.gravity.norm();
     const Vector3 up = g > 0.0 ? Vector3(-model.gravity / g) : Vector3::UnitZ();
@@ -235,8 +237,7 @@ void set_initial_stress(Model& model, const CaseDescription& description)
         const double unit_weight = model.points.mass[i] / model.points.volume[i] * g;
         for (std::size_t b = 0; b < family.count; ++b) {
             const NeighbourRecord& other = model.records[family.neighbours[b]];
-            const Vector3 middle =
-                0.5 * (model.points.position[i] + Vector3(other.position[0], other.position[1], other.position[2]));
+            const Vector3 middle = 0.5 * (model.points.position[i] + other.x());
             const double depth = std::max(0.0, top[model.points.body[i]] - middle.dot(up));
             const double vertical = -unit_weight * depth - model.points.saturation[i] * model.points.suction[i];
             const double lateral = initial.lateral_coefficient * vertical;
@@ -250,7 +251,7 @@ void set_initial_stress(Model& model, const CaseDescription& description)
                 bond[c * pack_width] = components[c];
         }
     }
-    initialize_materials(model);
+    initialize_materials(model, force_state);
 }
 
 } // namespace periporo

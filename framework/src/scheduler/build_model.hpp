@@ -43,9 +43,9 @@ std::vector<HeldDirection> held_by_rollers(const Model& model, const StageDescri
 
 /// Initial effective stress of all bonds (tension-positive, from the depth of the middle of the bond below the top of
 /// its body: sigma_v = -rho g depth - S_r s, sigma_h = K0 sigma_v) and the state of the materials that goes with it.
-void set_initial_stress(Model& model, const CaseDescription& description);
+void set_initial_stress(Model& model, const ForceState& force_state, const CaseDescription& description);
 
 /// State variables of all bonds from their stress and the overconsolidation ratio of the body.
-void initialize_materials(Model& model);
+void initialize_materials(Model& model, const ForceState& force_state);
 
 } // namespace periporo

@@ -127,7 +127,7 @@ void Simulation::begin_stage()
     model_.isometries.set_generators(image_generators(description_, stage));
     if (at_.stage == 0) {
         find_first_families(model_);
-        set_initial_stress(model_, description_);
+        set_initial_stress(model_, *force_state_, description_);
         log_->info("{} points, {} bonds ({:.1f} a point), {:.1f} MB ({:.1f} kB a point)", model_.size(),
                    model_.families.bonds(),
                    static_cast<double>(model_.families.bonds()) / static_cast<double>(model_.size()),
@@ -165,7 +165,7 @@ void Simulation::end_stage()
                        100.0 * profile->largest_deviation, 100.0 * profile->inner_deviation);
         }
         if (stage.response == "elastic")
-            initialize_materials(model_);
+            initialize_materials(model_, *force_state_);
     } else {
         outputs_.write_now(model_, *force_state_, at_, stage.name);
     }

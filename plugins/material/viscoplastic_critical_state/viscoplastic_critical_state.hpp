@@ -57,7 +57,7 @@ public:
     {
         return {{"log_preconsolidation_pressure", "ln Pa",
                  "Natural logarithm of the preconsolidation pressure pc over 1 Pa, without the suction shift", 0.0,
-                 false},
+                 false, true},
                 {"equivalent_plastic_shear_strain", "-", "Accumulated sqrt(2/3)|dev eps_p|", 0.0, true},
                 {"plastic_volumetric_strain", "-", "Plastic volumetric strain, compression positive", 0.0, true}};
     }

@@ -12,6 +12,46 @@ namespace {
 
 constexpr double dx = 0.01;
 
+/// Hooke's law that remembers its volumetric strain, as a variable of the point.
+struct HookeWithMemory : Hooke {
+    static constexpr std::size_t state_count = 1;
+    static std::vector<StateVariable> state_variables()
+    {
+        return {{"volumetric_strain", "-", "accumulated tr D dt", 0.0, false, true}};
+    }
+    using Hooke::Hooke;
+    template <class Real>
+    LawResult<Real, 1> update(const LawInput<Real, 1>& old) const
+    {
+        return {elastic_stress(old.stress, old.strain_increment, bulk_modulus(), shear_modulus()),
+                {old.state[0] + trace(old.strain_increment)}};
+    }
+    template <class Real>
+    std::array<Real, 1> initial_state(const LawInput<Real, 1>& settled, double) const
+    {
+        return settled.state;
+    }
+};
+
+constexpr std::size_t memory = 6; // its row
+
+/// A jittered block whose points remember random volumetric strains.
+Model with_memory(const ForceState& force)
+{
+    Model model = from_positions(jittered(lattice(5, 5, 5, dx), dx, 0.2), dx);
+    model.bodies[0].material = std::make_shared<LawMaterial<HookeWithMemory>>(Parameters{});
+    model.allocate();
+    find_first_families(model);
+    model.update_records();
+    force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0}); // finds the active bonds
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<double> value(-1.0, 1.0);
+    for (std::size_t i = 0; i < model.size(); ++i)
+        for (std::size_t b = 0; b < model.families[i].count; ++b)
+            bond_value(model, i, b, memory) = value(generator);
+    return model;
+}
+
 Vector3 turned(const Vector3& x, const Vector3& centre, double angle)
 {
     return centre + Eigen::AngleAxisd(angle, Vector3(1.0, 2.0, -0.5).normalized()) * (x - centre);
@@ -114,5 +154,72 @@ TEST_CASE("the mean state of a point weighs its bonds by their shares")
         for (std::size_t i = 0; i < model.size(); ++i)
             CHECK(3.0 * means[6 * i] ==
                   doctest::Approx(model.stress_work[i] / model.points.volume[i]).epsilon(1e-9).scale(1.0));
+    });
+}
+
+TEST_CASE("variables of the point are the mean of its bonds once these were set")
+{
+    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
+        CAPTURE(state);
+        CAPTURE(influence);
+        Model model = with_memory(force);
+        const Model before = model;
+        collect_point_variables(model, force);
+        std::vector<double> shares;
+        for (std::size_t i = 0; i < model.size(); ++i) {
+            shares.resize(model.families[i].packs * pack_width);
+            force.shares(before, i, shares);
+            double mean = 0.0;
+            for (std::size_t b = 0; b < model.families[i].count; ++b)
+                mean += shares[b] * bond_value(const_cast<Model&>(before), i, b, memory);
+            CHECK(model.point_state[7 * i + memory] == doctest::Approx(mean).epsilon(1e-12).scale(1.0));
+        }
+    });
+}
+
+TEST_CASE("bonds go on from the variables of their points, which neither fade nor mix through many refreshes")
+{
+    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
+        CAPTURE(state);
+        CAPTURE(influence);
+        Model model = with_memory(force);
+        collect_point_variables(model, force);
+        const std::vector<double> start = model.point_state;
+        for (int refresh = 0; refresh < 20; ++refresh) {
+            set_velocity(model, [&](const Vector3&) { return Vector3(refresh % 2 == 0 ? 0.1 : -0.1, 0.0, 0.0); });
+            for (Vector3& x : model.points.position)
+                x.x() += 1e-3 * model.points.velocity[0].x();
+            refresh_families(model, force);
+            force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, 1e-3});
+        }
+        for (std::size_t i = 0; i < model.size(); ++i) {
+            CHECK(model.point_state[7 * i + memory] ==
+                  doctest::Approx(start[7 * i + memory]).epsilon(1e-10).scale(1.0));
+            for (std::size_t b = 0; b < model.families[i].count; ++b) {
+                const std::size_t j = model.families[i].neighbours[b];
+                const double own = start[7 * i + memory], other = start[7 * j + memory];
+                const double begun = state == "bond_projection" ? 0.5 * (own + other) : own;
+                CHECK(bond_value(model, i, b, memory) == doctest::Approx(begun).epsilon(1e-10).scale(1.0));
+            }
+        }
+    });
+}
+
+TEST_CASE("a uniform expansion moves the variables of all points by its own amount")
+{
+    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
+        CAPTURE(state);
+        CAPTURE(influence);
+        Model model = with_memory(force);
+        collect_point_variables(model, force);
+        const std::vector<double> start = model.point_state;
+        const double dt = 1e-4;
+        set_velocity(model, [](const Vector3& x) { return x; });
+        force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, dt});
+        double expected = model.volume_rate[0];
+        CHECK(expected == doctest::Approx(3.0 * dt).epsilon(1e-3));
+        refresh_families(model, force);
+        for (std::size_t i = 0; i < model.size(); ++i)
+            CHECK(model.point_state[7 * i + memory] - start[7 * i + memory] == doctest::Approx(expected).epsilon(1e-9));
     });
 }

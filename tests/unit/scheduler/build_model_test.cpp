@@ -82,7 +82,8 @@ TEST_CASE("geostatic stress of a bond is that at the depth of its middle, with K
     Model& model = made.model;
     model.isometries.set_generators(image_generators(description, description.stages[0]));
     find_first_families(model);
-    set_initial_stress(model, description);
+    set_initial_stress(model, *make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon)),
+                       description);
     const double density = model.points.mass[0] / model.points.volume[0];
     for (const std::size_t i : {std::size_t{0}, std::size_t{600}, std::size_t{1199}})
         for (std::size_t b = 0; b < model.families[i].count; ++b) {

@@ -354,6 +354,7 @@ TEST_CASE("the plastic strains start anew at the release and the preconsolidatio
     REQUIRE(variables.size() == Soil::state_count);
     CHECK(variables[Soil::log_preconsolidation].name == "log_preconsolidation_pressure");
     CHECK_FALSE(variables[Soil::log_preconsolidation].reset_on_release);
+    CHECK(variables[Soil::log_preconsolidation].of_point);
     CHECK(variables[Soil::shear_strain].name == "equivalent_plastic_shear_strain");
     CHECK(variables[Soil::shear_strain].reset_on_release);
     CHECK(variables[Soil::volumetric_strain].name == "plastic_volumetric_strain");
