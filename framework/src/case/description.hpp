@@ -72,8 +72,9 @@ struct PlaneDescription {
 };
 
 struct BoundaryDescription {
-    std::string type;       ///< "symmetry" or "periodic"
-    PlaneDescription plane; ///< of a symmetry; of the lower side of a periodic pair
+    std::string type;       ///< "symmetry", "periodic" or "fixed"
+    PlaneDescription plane; ///< of a symmetry; of the lower side of a periodic pair; points that begin on its side of
+                            ///< smaller coordinates are fixed
     double period = 0.0;    ///< distance between the sides of a periodic pair [m]
 };
 

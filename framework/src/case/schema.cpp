@@ -101,11 +101,13 @@ TableRules body_rules()
 
 TableRules boundary_rules()
 {
-    TableRules rules{{Parameter::text("type", "Kind of boundary").one_of({"symmetry", "periodic"}),
-                      Parameter::text("plane", "Symmetry plane, or the lower side of a periodic pair, \"x = 0 mm\"")}};
+    TableRules rules{{Parameter::text("type", "Kind of boundary").one_of({"symmetry", "periodic", "fixed"}),
+                      Parameter::text("plane", "Symmetry plane, lower side of a periodic pair, or end of the region of "
+                                               "smaller coordinates whose points are held, \"x = 0 mm\"")}};
     rules.selector = "type";
     rules.variants = {
         {"symmetry", {}},
+        {"fixed", {}},
         {"periodic",
          {{Parameter::real("period", dimension::length, "Distance between the sides of a periodic pair").above(0.0)}}},
     };
@@ -215,7 +217,7 @@ TableRules root_rules()
         {"time", single, defaulted, "The time step", time_rules()},
         {"material", named, required, "A material", material_rules()},
         {"body", named, required, "A body of one material", body_rules()},
-        {"boundary", list, optional, "A symmetry plane or a periodic pair", boundary_rules()},
+        {"boundary", list, optional, "A symmetry plane, a periodic pair or a fixed region", boundary_rules()},
         {"contact", list, optional, "A contact law between bodies, or a body and a surface", contact_rules()},
         {"stage", list, required, "A stage of the run, in order", stage_rules()},
         {"output", list, optional, "A writer of results", output_rules()},

@@ -30,7 +30,7 @@ bool kept(const CaseDescription& description, const Vector3& x)
 {
     return std::all_of(description.boundaries.begin(), description.boundaries.end(), [&](const auto& boundary) {
         const double beyond = x[boundary.plane.axis] - boundary.plane.offset;
-        return beyond >= 0.0 && (boundary.type != "periodic" || beyond < boundary.period);
+        return boundary.type == "fixed" || (beyond >= 0.0 && (boundary.type != "periodic" || beyond < boundary.period));
     });
 }
 
@@ -176,19 +176,30 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
 std::vector<Isometry> image_generators(const CaseDescription& description, const StageDescription& stage)
 {
     std::vector<Isometry> generators;
-    for (const BoundaryDescription& boundary : description.boundaries)
-        generators.push_back(boundary.type == "periodic"
-                                 ? Isometry::shift(boundary.plane.axis, boundary.period)
-                                 : Isometry::reflection(boundary.plane.axis, boundary.plane.offset));
+    for (const BoundaryDescription& boundary : description.boundaries) {
+        if (boundary.type == "periodic")
+            generators.push_back(Isometry::shift(boundary.plane.axis, boundary.period));
+        else if (boundary.type == "symmetry")
+            generators.push_back(Isometry::reflection(boundary.plane.axis, boundary.plane.offset));
+    }
     for (const PlaneDescription& roller : stage.rollers)
         if (roller.axis != cylinder_axis)
             generators.push_back(Isometry::reflection(roller.axis, roller.offset));
     return generators;
 }
 
-std::vector<HeldDirection> held_by_rollers(const Model& model, const StageDescription& stage)
+std::vector<HeldDirection> held_directions(const Model& model, const CaseDescription& description,
+                                           const StageDescription& stage)
 {
     std::vector<HeldDirection> held;
+    for (const BoundaryDescription& boundary : description.boundaries) {
+        if (boundary.type != "fixed")
+            continue;
+        for (std::uint32_t i = 0; i < model.size(); ++i)
+            if (model.points.initial_position[i][boundary.plane.axis] < boundary.plane.offset)
+                for (Eigen::Index c = 0; c < 3; ++c)
+                    held.push_back({i, Vector3::Unit(c)});
+    }
     for (const PlaneDescription& roller : stage.rollers) {
         if (roller.axis != cylinder_axis)
             continue;

@@ -37,9 +37,10 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
 /// Isometries of the boundaries of the case and the plane rollers of a stage.
 std::vector<Isometry> image_generators(const CaseDescription& description, const StageDescription& stage);
 
-/// Points at the cylindrical rollers of a stage ("r = 100 mm", about the z axis): within one spacing of the outermost
-/// ring; their radial velocity is held.
-std::vector<HeldDirection> held_by_rollers(const Model& model, const StageDescription& stage);
+/// Points of fixed regions, in all directions, and points at the cylindrical rollers of a stage ("r = 100 mm", about
+/// the z axis), within one spacing of the outermost ring, in the radial direction.
+std::vector<HeldDirection> held_directions(const Model& model, const CaseDescription& description,
+                                           const StageDescription& stage);
 
 /// Initial effective stress of all bonds (tension-positive, from the depth of the middle of the bond below the top of
 /// its body: sigma_v = -rho g depth - S_r s, sigma_h = K0 sigma_v) and the state of the materials that goes with it.

@@ -111,7 +111,7 @@ void Simulation::restore()
     read_checkpoint(
         file, {model_, contact_, dynamics_, frequency_, at_}, description_.resolved, settings_of(description_).skin,
         [this](std::uint64_t stage) { return image_generators(description_, description_.stages.at(stage)); });
-    dynamics_.hold(held_by_rollers(model_, description_.stages[at_.stage]));
+    dynamics_.hold(held_directions(model_, description_, description_.stages[at_.stage]));
     reports_ = nlohmann::json::parse(at_.stage_reports);
     resuming_ = true;
     log_->info("resumed in stage '{}' at step {}, time {:.6g} s", description_.stages[at_.stage].name, at_.step,
@@ -136,7 +136,7 @@ void Simulation::begin_stage()
     } else {
         dynamics_.refresh();
     }
-    dynamics_.hold(held_by_rollers(model_, stage));
+    dynamics_.hold(held_directions(model_, description_, stage));
     renew_step(first_iterations);
     dynamics_.start();
     if (!is_quasi_static(stage) && !at_.ledger_open) {

@@ -27,7 +27,8 @@ struct StableStep {
 /// space starts from the highest mode found last plus a scattered vector of the same length: the highest mode sits on a
 /// few points of the rim, and when another place takes over, the old mode alone does not see it (a column of 9,600
 /// points blew up that way). A new mode whose omega^2 is 1.5 times that of all others grows against them by cosh(1.3
-/// m)^2 in m iterations, 1e8 for m = 8, where power iteration gains 1.5^(2m), 700.
+/// m)^2 in m iterations, 1e8 for m = 8, where power iteration gains 1.5^(2m), 700. Held directions are left free: they
+/// can only lower the highest frequency (Cauchy interlacing).
 class FrequencyEstimate {
 public:
     /// Angular frequency [rad/s] after so many evaluations of the operator. Velocities and records of the model are

@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include <map>
 #include <set>
 
 using namespace periporo;
@@ -100,11 +101,29 @@ TEST_CASE("cylindrical rollers hold the radial direction of the outer ring only"
 {
     const CaseDescription description = quickstart({"stage.0.rollers=[\"r = 100 mm\"]"});
     BuiltModel made = built(description);
-    const std::vector<HeldDirection> held = held_by_rollers(made.model, description.stages[0]);
+    const std::vector<HeldDirection> held = held_directions(made.model, description, description.stages[0]);
     CHECK(!held.empty());
     for (const HeldDirection& h : held) {
         const Vector3& x = made.model.points.position[h.point];
         CHECK(std::hypot(x.x(), x.y()) > 0.09);
         CHECK(h.direction.dot(Vector3(x.x(), x.y(), 0.0).normalized()) == doctest::Approx(1.0));
     }
+}
+
+TEST_CASE("a fixed region holds all directions of the points that begin below its plane, and cuts nothing")
+{
+    const CaseDescription description =
+        quickstart({"boundary=[{type=\"fixed\",plane=\"z = 20 mm\"}]", "stage.0.rollers=[]"});
+    BuiltModel made = built(description);
+    CHECK(made.model.size() == 1200);
+    CHECK(image_generators(description, description.stages[0]).empty());
+    const std::vector<HeldDirection> held = held_directions(made.model, description, description.stages[0]);
+    std::map<std::uint32_t, Vector3> sums;
+    for (const HeldDirection& h : held) {
+        CHECK(made.model.points.position[h.point].z() < 0.02);
+        sums.emplace(h.point, Vector3::Zero()).first->second += h.direction;
+    }
+    CHECK(sums.size() == 200);
+    for (const auto& [point, sum] : sums)
+        CHECK(sum == Vector3::Ones());
 }
