@@ -62,7 +62,7 @@ struct PluginDescriptor {
 /// What must agree between a plugin and the program, in words. Each translation unit has its own copy on purpose: a
 /// shared symbol would be resolved to the program's.
 namespace {
-[[maybe_unused]] constexpr auto abi_fingerprint = [] {
+[[maybe_unused]] constexpr auto abi_fingerprint = [] { // NOLINT(misc-definitions-in-headers)
     std::array<char, 96> text{};
     std::size_t length = 0;
     const auto add = [&](const char* part) {

@@ -53,8 +53,6 @@ public:
         throw std::invalid_argument("no influence function is called '" + name + "'");
     }
 
-    InfluenceKind kind() const { return kind_; }
-
     /// Mean of zeta_x^2 over a whole ball, weighted with omega: the shape tensor of a full family is this times its
     /// weight. delta^2/5 for `constant`. [m2]
     double second_moment() const { return second_moment_; }

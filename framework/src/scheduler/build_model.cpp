@@ -97,6 +97,26 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         {body.name, make_material(description, body, registry), body.initial_stress.overconsolidation_ratio});
 }
 
+std::vector<std::uint32_t> fixed_points(const Model& model, const BoundaryDescription& boundary)
+{
+    std::vector<std::uint32_t> fixed;
+    for (std::uint32_t i = 0; i < model.size(); ++i)
+        if (model.points.initial_position[i][boundary.plane.axis] < boundary.plane.offset)
+            fixed.push_back(i);
+    return fixed;
+}
+
+void remark_on_fixed_points(BuiltModel& built, const BoundaryDescription& boundary)
+{
+    const std::size_t count = fixed_points(built.model, boundary).size();
+    const std::string where = fmt::format("{} < {:.4g} m", "xyz"[boundary.plane.axis], boundary.plane.offset);
+    if (count == 0 || count == built.model.size())
+        throw std::runtime_error(fmt::format("boundary 'fixed': {} of the {} points begin at {}; a fixed region holds "
+                                             "some and leaves others free",
+                                             count == 0 ? "none" : "all", built.model.size(), where));
+    built.remarks.push_back(fmt::format("{} points are fixed, those that begin at {}", count, where));
+}
+
 void order_along_curve(Points& points, double spacing)
 {
     Vector3 lower = points.position.front();
@@ -153,6 +173,9 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
         add_body(built, description, b, registry);
     order_along_curve(model.points, model.spacing);
     model.allocate();
+    for (const BoundaryDescription& boundary : description.boundaries)
+        if (boundary.type == "fixed")
+            remark_on_fixed_points(built, boundary);
 
     for (const ContactDescription& contact : description.contacts) {
         const std::shared_ptr<Contact> law = registry.make_contact(contact.law.name, contact.law.parameters);
@@ -195,10 +218,9 @@ std::vector<HeldDirection> held_directions(const Model& model, const CaseDescrip
     for (const BoundaryDescription& boundary : description.boundaries) {
         if (boundary.type != "fixed")
             continue;
-        for (std::uint32_t i = 0; i < model.size(); ++i)
-            if (model.points.initial_position[i][boundary.plane.axis] < boundary.plane.offset)
-                for (Eigen::Index c = 0; c < 3; ++c)
-                    held.push_back({i, Vector3::Unit(c)});
+        for (const std::uint32_t i : fixed_points(model, boundary))
+            for (Eigen::Index c = 0; c < 3; ++c)
+                held.push_back({i, Vector3::Unit(c)});
     }
     for (const PlaneDescription& roller : stage.rollers) {
         if (roller.axis != cylinder_axis)

@@ -9,6 +9,7 @@
 #include "support/specimens.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <map>
 #include <set>
@@ -126,4 +127,12 @@ TEST_CASE("a fixed region holds all directions of the points that begin below it
     CHECK(sums.size() == 200);
     for (const auto& [point, sum] : sums)
         CHECK(sum == Vector3::Ones());
+}
+
+TEST_CASE("a fixed region that holds no point, or all, is refused")
+{
+    for (const char* plane : {"z = -1 mm", "z = 1 m"})
+        CHECK_THROWS_WITH_AS(
+            built(quickstart({fmt::format("boundary=[{{type=\"fixed\",plane=\"{}\"}}]", plane), "stage.0.rollers=[]"})),
+            doctest::Contains("boundary 'fixed'"), std::runtime_error);
 }

@@ -32,6 +32,28 @@ double dense_frequency(Model& model, const ForceState& force)
     return std::sqrt(k.eigenvalues().real().maxCoeff());
 }
 
+/// An elastic block that moves, by very little, in its highest mode.
+struct BlockInHighestMode {
+    explicit BlockInHighestMode(const char* influence)
+        : model(from_positions(lattice(5, 5, 5, dx), dx)),
+          force(make_force_state("energy_conjugate", Influence::by_name(influence, model.horizon)))
+    {
+        find_first_families(model);
+        FrequencyEstimate estimate;
+        omega = estimate.update(model, *force, 40);
+        for (std::size_t i = 0; i < model.size(); ++i)
+            model.points.velocity[i] = 1e-9 * estimate.mode()[i] / (estimate.mode()[0].norm() + 1e-30);
+        dynamics.start();
+        dynamics.open_ledger();
+    }
+
+    Model model;
+    std::unique_ptr<ForceState> force;
+    ContactForces contact{{}};
+    Dynamics dynamics{model, *force, contact, {1e9, false}};
+    double omega = 0.0;
+};
+
 } // namespace
 
 TEST_CASE("the largest frequency of the dense operator is found, from below")
@@ -68,22 +90,12 @@ TEST_CASE("a stiff place that arises away from the last highest mode is found wi
 TEST_CASE("an elastic block is stable at the step the estimate allows and not at 1.1 times 2/omega")
 {
     const auto grows = [](double factor) {
-        Model model = from_positions(lattice(5, 5, 5, dx), dx);
-        find_first_families(model);
-        const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
-        FrequencyEstimate estimate;
-        const double omega = estimate.update(model, *force, 40);
-        for (std::size_t i = 0; i < model.size(); ++i) // start in the highest mode
-            model.points.velocity[i] = 1e-9 * estimate.mode()[i] / (estimate.mode()[0].norm() + 1e-30);
-        ContactForces contact({});
-        Dynamics dynamics(model, *force, contact, {1e9, false});
-        dynamics.start();
-        dynamics.open_ledger();
-        const double first = dynamics.mean_speed();
+        BlockInHighestMode block("constant");
+        const double first = block.dynamics.mean_speed();
         double largest = 0.0;
         for (int step = 0; step < 60; ++step) {
-            dynamics.step({factor * 2.0 / omega, MaterialResponse::full, 0.0});
-            largest = std::max(largest, dynamics.mean_speed());
+            block.dynamics.step({factor * 2.0 / block.omega, MaterialResponse::full, 0.0});
+            largest = std::max(largest, block.dynamics.mean_speed());
         }
         return largest > 10.0 * first;
     };
@@ -94,20 +106,11 @@ TEST_CASE("an elastic block is stable at the step the estimate allows and not at
 TEST_CASE("a block in its highest mode settles under local damping at the step that is left, and not at 1.1 times it")
 {
     const auto grows = [](double factor) {
-        Model model = from_positions(lattice(5, 5, 5, dx), dx);
-        find_first_families(model);
-        const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
-        FrequencyEstimate estimate;
-        const double omega = estimate.update(model, *force, 40);
-        for (std::size_t i = 0; i < model.size(); ++i)
-            model.points.velocity[i] = 1e-9 * estimate.mode()[i] / (estimate.mode()[0].norm() + 1e-30);
-        ContactForces contact({});
-        Dynamics dynamics(model, *force, contact, {1e9, false});
-        dynamics.start();
-        const double first = dynamics.mean_speed();
+        BlockInHighestMode block("linear");
+        const double first = block.dynamics.mean_speed();
         for (int step = 0; step < 60; ++step)
-            dynamics.step({factor * local_damping_factor(0.8) * 2.0 / omega, MaterialResponse::full, 0.8});
-        return dynamics.mean_speed() > first;
+            block.dynamics.step({factor * local_damping_factor(0.8) * 2.0 / block.omega, MaterialResponse::full, 0.8});
+        return block.dynamics.mean_speed() > first;
     };
     CHECK_FALSE(grows(0.95));
     CHECK(grows(1.1));
