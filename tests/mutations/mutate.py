@@ -66,6 +66,12 @@ MUTATIONS = {
         "at = before.count;\nwhile (at < before.count && old_families",
         _REFRESH,
     ),
+    "point_variables_not_evened_out": Mutation(
+        "operator/refresh.cpp",
+        "begun_with(model, force_state, i, family.neighbours[b], r);\n    }",
+        "bond_rows(model.bonds, i, model.rows(i), b)[r * pack_width];\n    }",
+        _REFRESH,
+    ),
     "image_reaction_not_mirrored": Mutation(
         "operator/bond_forces.cpp", "if (j >= n)", "if (j >= n && false)", _IDENTITIES
     ),

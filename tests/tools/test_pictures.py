@@ -115,6 +115,15 @@ class Pictures(unittest.TestCase):
         self.assertEqual(text.strip(), str(picture))
         self.assertGreater(matplotlib.image.imread(picture).shape[0], 300)
 
+    def test_runs_side_by_side_are_one_picture_twice_as_wide(self):
+        pictures = [self.folder / name for name in ("one.png", "two.png")]
+        for picture, folders in zip(pictures, ([self.folder], [self.folder, self.folder])):
+            status, text, _ = called("--side-by-side", *folders, "--out", picture)
+            self.assertEqual(status, 0)
+            self.assertEqual(text.strip(), str(picture))
+        one, two = (matplotlib.image.imread(picture) for picture in pictures)
+        self.assertGreater(two.shape[1], 1.5 * one.shape[1])
+
 
 class UnusualResults(unittest.TestCase):
     def setUp(self):

@@ -10,13 +10,17 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import matplotlib.image
+import numpy as np
+
 from periporo_tools import dispersion
 from periporo_tools.verification import checks, report
+from periporo_tools.verification.outcome import Curve, Refinement, Row
 from periporo_tools.verification.main import main
 
 
 def row(found, expected=2.0, tolerance=0.1, absolute=False):
-    return checks.Row("case", "speed", "m/s", expected, found, tolerance, "because", absolute)
+    return Row("case", "speed", "m/s", expected, found, tolerance, "because", absolute)
 
 
 class Rows(unittest.TestCase):
@@ -43,12 +47,28 @@ class Rows(unittest.TestCase):
     def test_the_json_table_has_what_machines_need(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "table.json"
-            report.write_json([row(3.0)], path)
+            report.write_json([row(np.float64(3.0), tolerance=np.float64(0.1))], path)
             (record,) = json.loads(path.read_text())
         for key in ("name", "quantity", "expected", "found", "difference", "tolerance", "reason"):
             self.assertIn(key, record)
         self.assertAlmostEqual(record["difference"], 0.5)
         self.assertFalse(record["holds"])
+
+
+class Refinements(unittest.TestCase):
+    def test_the_order_is_the_slope_between_the_two_finest_lattices(self):
+        spacings = np.array([0.02, 0.01, 0.005])
+        self.assertAlmostEqual(Refinement("case", spacings, np.array([9.0, -0.4, 0.1])).order, 2.0)
+        self.assertAlmostEqual(Refinement("case", spacings, -3.0 * spacings).order, 1.0)
+
+    def test_they_share_the_last_panel_of_the_page(self):
+        line = np.array([0.0, 1.0])
+        refinement = Refinement("case", np.array([0.02, 0.01]), np.array([0.1, 0.05]))
+        with tempfile.TemporaryDirectory() as folder:
+            alone = report.draw([Curve("t", "x", "y", [("found", line, line)])], [], Path(folder) / "alone.png")
+            both = report.draw([Curve("t", "x", "y", [("found", line, line)])], [refinement], Path(folder) / "both.png")
+            widths = [matplotlib.image.imread(picture).shape[1] for picture in (alone, both)]
+        self.assertEqual(widths[1], 2 * widths[0])
 
 
 class Command(unittest.TestCase):

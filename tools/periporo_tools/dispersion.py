@@ -13,10 +13,12 @@ from periporo_tools.style import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, plt
 
 _DIRECTIONS = {"100": "-", "110": "--", "111": ":"}
 _COLOURS = (INK, BLUE, GREEN, ORANGE, RED, PURPLE, SKY)
+# by force state, influence function, direction and wave: (|k| dx, relative phase speed)
+Curves = dict[tuple[str, str, str, str], list[tuple[float, float]]]
 
 
-def read(table: Path) -> dict[tuple[str, str, str, str], list[tuple[float, float]]]:
-    """Curves by force state, influence function, direction and wave: (|k| dx, relative phase speed)."""
+def read(table: Path) -> Curves:
+    """The table that `periporo dispersion` prints."""
     curves = defaultdict(list)
     with table.open() as lines:
         for row in csv.DictReader(lines):
@@ -25,7 +27,7 @@ def read(table: Path) -> dict[tuple[str, str, str, str], list[tuple[float, float
     return dict(curves)
 
 
-def draw(curves: dict, picture: Path) -> Path:
+def draw(curves: Curves, picture: Path) -> Path:
     """A row of panels a wave, a column a force state; colours are influence functions, dashes directions."""
     states = list(dict.fromkeys(key[0] for key in curves))
     influences = list(dict.fromkeys(key[1] for key in curves))
@@ -55,7 +57,7 @@ def draw(curves: dict, picture: Path) -> Path:
     return picture
 
 
-def summary(curves: dict) -> str:
+def summary(curves: Curves) -> str:
     """A line a force state and influence function: relative speeds along [100] of long, middling and shortest waves."""
     rows = [f"{'force state':18} {'influence':17} {'wave':5} {'k dx = pi/4':>12} {'pi/2':>7} {'pi':>7}"]
     for (state, influence, direction, wave), points in curves.items():

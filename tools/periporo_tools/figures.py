@@ -160,26 +160,38 @@ _ENERGIES = {
 }
 
 
-def history(results: Results, comparison: dict, path: Path) -> Path | None:
-    """Energies, front and height over time; none when the run wrote no history."""
+def _since_release(results: Results) -> dict[str, np.ndarray]:
+    """The histories from the release on; empty when the run wrote none of it."""
     columns = results.history
     if "time" not in columns or not (columns["time"] >= 0.0).any():
-        return None
+        return {}
     settled = np.flatnonzero(columns["time"] <= 0.0)
     since = slice(int(settled[-1]) if settled.size else 0, None)
-    time = columns["time"][since]
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(9, 7), sharex=True, gridspec_kw={"hspace": 0.12})
+    return {name: values[since] for name, values in columns.items()}
+
+
+def _energies(axes, columns: dict[str, np.ndarray]) -> None:
+    """Energies over the time since the release."""
+    time = columns["time"]
     potential = columns.get("gravity_energy")
     if potential is not None:
-        released = potential[since][0] - potential[since]
-        top.plot(time, released, color=PURPLE, linestyle="--", label="potential energy released")
+        axes.plot(time, potential[0] - potential, color=PURPLE, linestyle="--", label="potential energy released")
     for name, (label, colour, style) in _ENERGIES.items():
-        if name in columns and (name == "energy_error" or np.any(columns[name][since] != columns[name][since][0])):
-            values = columns[name][since]
-            top.plot(time, values if name == "kinetic_energy" else values - values[0], color=colour, linestyle=style,
-                     label=label)
-    top.axhline(0.0, color=PALE, linewidth=0.8, zorder=0)
-    top.set_ylabel("energy since the release [J]")
+        if name in columns and (name == "energy_error" or np.any(columns[name] != columns[name][0])):
+            values = columns[name]
+            axes.plot(time, values if name == "kinetic_energy" else values - values[0], color=colour, linestyle=style,
+                      label=label)
+    axes.axhline(0.0, color=PALE, linewidth=0.8, zorder=0)
+    axes.set_ylabel("energy since the release [J]")
+
+
+def history(results: Results, comparison: dict, path: Path) -> Path | None:
+    """Energies, front and height over time; none when the run wrote no history."""
+    columns = _since_release(results)
+    if not columns:
+        return None
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(9, 7), sharex=True, gridspec_kw={"hspace": 0.12})
+    _energies(top, columns)
     part = {1: " (energies of the half computed)", 2: " (energies of the quarter computed)"}
     top.set_title(_title(results) + part.get(len(results.symmetry), ""))
     top.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
@@ -189,7 +201,7 @@ def history(results: Results, comparison: dict, path: Path) -> Path | None:
         ("height", "height: highest point of all", ORANGE),
     ):
         if name in columns:
-            bottom.plot(time, columns[name][since] * MILLI, color=colour, label=label)
+            bottom.plot(columns["time"], columns[name] * MILLI, color=colour, label=label)
     rest = comparison["measured"]["rest_time"]
     if rest is not None:
         bottom.axvline(rest, color=INK, linewidth=1.0, linestyle="-", label=f"at rest: {rest:.2f} s")
@@ -250,6 +262,16 @@ def sequence(
     return _save(figure, path)
 
 
+def _common_colours(snapshots: list[Snapshot], colour_max: float | None) -> tuple[list[Field], float | None]:
+    """The fields of the snapshots, one kind of field, and the upper end of the colours for all of them."""
+    fields = [snapshot.colour for snapshot in snapshots if snapshot.colour]
+    if len({field.name for field in fields}) > 1:
+        raise ResultError("runs in one picture must hold the same field to colour by; these do not")
+    if fields and colour_max is None and fields[0].unit != "-":
+        colour_max = max(float(field.values.max()) for field in fields)
+    return fields, colour_max
+
+
 def series(runs: list[Results], path: Path, colour_max: float | None) -> Path:
     """Final sections of several runs at one scale of lengths and one of colours, one below the other."""
     final = [measures.main_body(run.snapshot(-1)) for run in runs]
@@ -267,11 +289,7 @@ def series(runs: list[Results], path: Path, colour_max: float | None) -> Path:
         gridspec_kw={"height_ratios": heights, "hspace": 0.35},
     )
     axes = list(axes[:, 0])
-    fields = [snapshot.colour for snapshot in final if snapshot.colour]
-    if len({field.name for field in fields}) > 1:
-        raise ResultError("the runs of a series must hold the same field to colour by; these do not")
-    if fields and colour_max is None and fields[0].unit != "-":
-        colour_max = max(float(field.values.max()) for field in fields)
+    fields, colour_max = _common_colours(final, colour_max)
     for axis, run, snapshot, (half, height) in zip(axes, runs, final, outlines):
         scale = scale_of(snapshot.colour or _plain(snapshot), colour_max)
         views.section(axis, snapshot, run.spacing, run.symmetry, scale)
@@ -281,4 +299,39 @@ def series(runs: list[Results], path: Path, colour_max: float | None) -> Path:
     axes[-1].set_xlabel("x [mm]")
     if fields:
         colour_bar(figure, scale, fields[0], axes, fraction=0.025, pad=0.02, aspect=40)
+    return _save(figure, path)
+
+
+def side_by_side(runs: list[Results], names: list[str], path: Path, colour_max: float | None) -> Path:
+    """Final sections of several runs beside each other, the energies of each below, all at one scale."""
+    final = [measures.main_body(run.snapshot(-1)) for run in runs]
+    initial = [measures.main_body(run.snapshot(run.release)) for run in runs]
+    outlines = [_initial_outline(run, snapshot) for run, snapshot in zip(runs, initial)]
+    reach = max(_reach(run, snapshot) for run, snapshot in zip(runs, final))
+    highest = max([float(snapshot.position[:, 2].max()) for snapshot in final] + [height for _, height in outlines])
+    fields, colour_max = _common_colours(final, colour_max)
+    width = 5.2
+    section = width * 1.13 * highest / (2.12 * reach)
+    figure, axes = plt.subplots(
+        2, len(runs), figsize=(width * len(runs) + 1.6, section + 4.4), sharex="row", sharey="row", squeeze=False,
+        gridspec_kw={"height_ratios": [section, 3.2], "hspace": 0.3, "wspace": 0.08},
+    )
+    for run, name, snapshot, (half, height), top, bottom in zip(runs, names, final, outlines, *axes):
+        views.section(top, snapshot, run.spacing, run.symmetry, scale_of(snapshot.colour or _plain(snapshot), colour_max))
+        views.outline(top, half, height)
+        _frame_section(top, reach, highest)
+        top.set_title(f"{name}\nt = {snapshot.time:.3f} s", fontsize=10)
+        top.set_xlabel("x [mm]")
+        columns = _since_release(run)
+        if columns:
+            _energies(bottom, columns)
+        bottom.set_xlabel("time since the release [s]")
+    for panel in axes[:, 1:].flat:
+        panel.set_ylabel("")
+    axes[1, -1].legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    if fields:
+        bar = colour_bar(
+            figure, scale_of(fields[0], colour_max), fields[0], list(axes[0]), fraction=0.025, pad=0.01, aspect=15
+        )
+        bar.set_label(f"{fields[0].name} [{fields[0].unit}]".replace(" plastic ", " plastic\n"), fontsize=8)
     return _save(figure, path)

@@ -17,6 +17,7 @@ _EXAMPLES = """examples:
   tools/pictures results/paper_a1.2 --times 0.09 0.18 0.29
   tools/pictures --table results/paper_a0.6 results/paper_a1.2 results/paper_a2.0
   tools/pictures --series results/paper_a0.6 results/paper_a1.2 results/paper_a2.0 --out series.png
+  tools/pictures --side-by-side results/mine results/yours --out side_by_side.png
 """
 
 
@@ -32,7 +33,10 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--table", action="store_true", help="print a Markdown table of the runs, draw nothing")
     what.add_argument("--series", action="store_true", help="draw the final sections of the runs at one scale")
-    parser.add_argument("--out", type=Path, default=Path("series.png"), help="picture of --series (series.png)")
+    what.add_argument("--side-by-side", action="store_true",
+                      help="draw the final sections of the runs beside each other, with their energies below")
+    parser.add_argument("--out", type=Path, metavar="FILE",
+                        help="picture of --series (series.png) or --side-by-side (side_by_side.png)")
     parser.add_argument("--colour-max", type=float, metavar="VALUE", help="upper end of the colours (2 for strain)")
     parser.add_argument("--extent", type=float, metavar="MM", help="half-width of the views, for one scale in a series")
     parser.add_argument("--times", type=float, nargs="+", metavar="S", help="times of sequence.png [s]")
@@ -72,10 +76,15 @@ def main(arguments: list[str] | None = None) -> int:
                 with Results(folder) as results:
                     records.append(verdict.compare(results))
             print(verdict.markdown(records))
-        elif options.series:
+        elif options.series or options.side_by_side:
             with ExitStack() as stack:
                 runs = [stack.enter_context(Results(folder)) for folder in options.folders]
-                print(figures.series(runs, options.out, options.colour_max))
+                if options.series:
+                    print(figures.series(runs, options.out or Path("series.png"), options.colour_max))
+                else:
+                    names = [folder.absolute().name for folder in options.folders]
+                    out = options.out or Path("side_by_side.png")
+                    print(figures.side_by_side(runs, names, out, options.colour_max))
         else:
             for folder in options.folders:
                 _draw(folder, options)

@@ -41,7 +41,7 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
 
 
 def _verify(options: argparse.Namespace, out: Path) -> int:
-    rows, curves = [], []
+    rows, curves, refinements = [], [], []
     runner = Runner(options.program, _ROOT / "cases/verification", out, options.small)
     names = options.names or list(CHECKS)
     for count, name in enumerate(names, 1):
@@ -49,6 +49,7 @@ def _verify(options: argparse.Namespace, out: Path) -> int:
         outcome = CHECKS[name](runner)
         rows += outcome.rows
         curves += outcome.curves
+        refinements += outcome.refinements
         failed = sum(not row.holds for row in outcome.rows)
         print(
             f"[{count}/{len(names)}] {name}: {len(outcome.rows)} quantities, {failed or 'none'} outside,"
@@ -59,7 +60,7 @@ def _verify(options: argparse.Namespace, out: Path) -> int:
     if options.json:
         report.write_json(rows, options.json)
     if not options.small:
-        print(f"\n{report.draw(curves, out / 'verification.png')}")
+        print(f"\n{report.draw(curves, refinements, out / 'verification.png')}")
     failed = sum(not row.holds for row in rows)
     print(f"\n{len(rows) - failed} of {len(rows)} quantities within their tolerance")
     return 1 if failed else 0

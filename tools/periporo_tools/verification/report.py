@@ -8,7 +8,9 @@ import json
 import math
 from pathlib import Path
 
-from periporo_tools.verification.checks import Curve, Row
+import numpy as np
+
+from periporo_tools.verification.outcome import Curve, Refinement, Row
 
 _HEAD = ("", "case", "quantity", "expected", "found", "difference", "tolerance", "reason of the tolerance")
 
@@ -48,24 +50,45 @@ def write_json(rows: list[Row], path: Path) -> None:
     aside.replace(path)
 
 
-def draw(curves: list[Curve], path: Path) -> Path:
-    """All curves on one page."""
-    from periporo_tools.style import BLUE, GREEN, INK, ORANGE, PURPLE, RED, plt
+def _refinement_panel(refinements: list[Refinement]) -> Curve:
+    """All refinements, with the slopes of first and second order through the first one's coarsest point."""
+    first = refinements[0]
+    ratio = first.spacings / first.spacings[0]
+    guides = [
+        (name, 1e3 * first.spacings, abs(first.differences[0]) * ratio**order)
+        for name, order in (("first order", 1), ("second order", 2))
+    ]
+    found = [(one.name, 1e3 * one.spacings, np.abs(one.differences)) for one in refinements]
+    return Curve("Refinement", "spacing [mm]", "relative difference from the closed form", found, guides, True)
+
+
+def draw(curves: list[Curve], refinements: list[Refinement], path: Path) -> Path:
+    """All curves on one page, the refinements together in the last panel."""
+    if refinements:
+        curves = [*curves, _refinement_panel(refinements)]
+    from periporo_tools.style import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SKY, plt
 
     columns = min(3, len(curves))
     lines = math.ceil(len(curves) / columns)
     figure, axes = plt.subplots(lines, columns, figsize=(4.6 * columns, 3.5 * lines), squeeze=False, layout="constrained")
+    colours = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY)
     for panel in axes.flat[len(curves):]:
         panel.axis("off")
     for panel, curve in zip(axes.flat, curves):
         for name, x, y in curve.expected:
             panel.plot(x, y, color=INK, linestyle="--", linewidth=1.2, label=name)
-        for (name, x, y), colour in zip(curve.found, (BLUE, ORANGE, GREEN, RED, PURPLE)):
-            panel.plot(x, y, color=colour, label=name)
+        for index, (name, x, y) in enumerate(curve.found):
+            if curve.logarithmic:  # in pairs, one for each force state
+                panel.loglog(x, y, color=colours[index // 2], linestyle=("-", ":")[index % 2], marker="o", label=name)
+            else:
+                panel.plot(x, y, color=colours[index], label=name)
         panel.set(title=curve.title, xlabel=curve.x_label, ylabel=curve.y_label)
         if curve.y_label.startswith("depth"):
             panel.invert_yaxis()
-        panel.legend(fontsize=7)
+        beside = {"loc": "upper left", "bbox_to_anchor": (1.02, 1.0)} if curve.logarithmic else {}
+        legend = panel.legend(fontsize=7, **beside)
+        if curve.logarithmic:  # an empty place beside the last panel is room enough
+            legend.set_in_layout(len(curves) % columns == 0)
     figure.savefig(path)
     plt.close(figure)
     return path

@@ -12,6 +12,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from periporo_tools import dispersion
+from periporo_tools.dispersion import Curves
 from periporo_tools.results import read_summary
 
 
@@ -40,6 +42,11 @@ class Run:
         with h5py.File(self.folder / "results.h5") as file:
             snapshots = file["snapshots"]
             return [float(snapshots[name].attrs["time"]) for name in sorted(snapshots)]
+
+    def travel(self, axis: int) -> np.ndarray:
+        """Displacement of the centre of mass in every snapshot [m]."""
+        snapshots = map(self.fields, range(len(self.times)))
+        return np.array([np.average(f["displacement"][:, axis], weights=f["mass"]) for f in snapshots])
 
     def fields(self, index: int = -1) -> dict[str, np.ndarray]:
         """All fields of a snapshot, and "initial_position" and "mass"."""
@@ -73,18 +80,27 @@ class Runner:
             self.done[key] = self._run(case, overrides)
         return self.done[key]
 
+    def dispersion(self, case: str) -> Curves:
+        """Phase speeds in the lattice of a case."""
+        table = self.out / f"{case}_dispersion.csv"
+        table.write_text(self._call("dispersion", str(self.cases / f"{case}.toml")))
+        return dispersion.read(table)
+
     def _run(self, case: str, overrides: dict[str, str]) -> Run:
         folder = self.out / f"{case}_{len(self.done):02d}"
-        command = [str(self.program), "run", str(self.cases / f"{case}.toml"), "--out", str(folder), "--overwrite"]
-        command.append("--quiet")
-        for name, value in overrides.items():
-            command += ["--set", f"{name}={value}"]
+        settings = [word for name, value in overrides.items() for word in ("--set", f"{name}={value}")]
+        self._call("run", str(self.cases / f"{case}.toml"), "--out", str(folder), "--overwrite", "--quiet", *settings)
+        return Run(folder)
+
+    def _call(self, *arguments: str) -> str:
+        """What the program prints. @throws RunFailure with its messages when it fails."""
+        command = [str(self.program), *arguments]
         begin = time.monotonic()
         finished = subprocess.run(command, capture_output=True, text=True, check=False)
         self.seconds += time.monotonic() - begin
         if finished.returncode != 0:
             raise RunFailure(f"{' '.join(command)}\n{finished.stderr}")
-        return Run(folder)
+        return finished.stdout
 
 
 def _toml(value: object) -> str:
