@@ -15,7 +15,7 @@ from periporo_tools.verification.runner import RunFailure, Runner
 
 _ROOT = Path(__file__).resolve().parents[3]
 _EXAMPLES = """examples:
-  tools/verify                              all cases in full; one of them takes 200,000 steps
+  tools/verify                              all cases in full: about twenty minutes on two cores
   tools/verify --small p_wave incline       two cases as the test suite runs them
   tools/verify --json verification.json     the table for machines too
 """
