@@ -16,6 +16,11 @@ DENSITY, BULK, SHEAR = 2000.0, 2.0e6, 1.2e6
 YOUNG = 9.0 * BULK * SHEAR / (3.0 * BULK + SHEAR)
 POISSON = (3.0 * BULK - 2.0 * SHEAR) / (6.0 * BULK + 2.0 * SHEAR)
 GRAVITY = 9.81
+HORIZON_RATIO = 3.015
+
+# why a body whose strain varies across the section is soft, and how that goes with refinement
+SOFT_FACES = "within delta of a face a bond sees the gradient up to 3 delta/8 farther in, where it is smaller: of "
+SOFT_FACES_ORDER = "second order in the end, less while the soft layers of the faces fill the section"
 
 STATES = ("energy_conjugate", "bond_projection")
 INFLUENCES = ("constant", "linear", "quadratic", "gaussian", "cubic_b_spline", "inverse_distance")
@@ -30,6 +35,14 @@ def operators(runner: Runner) -> Iterator[tuple[str, str]]:
 
 def choose(state: str, influence: str) -> dict[str, str]:
     return {"operator__force_state": state, "operator__influence": influence}
+
+
+def mean_displacement(run: Run, along: int) -> tuple[np.ndarray, np.ndarray]:
+    """Where the layers of points across an axis began, and the mean of u_z over each [m]."""
+    last = run.fields()
+    place = last["initial_position"][:, along]
+    layers = np.unique(np.round(place, 9))
+    return layers, np.array([last["displacement"][np.isclose(place, layer), 2].mean() for layer in layers])
 
 
 def refine(

@@ -6,7 +6,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from periporo_tools.verification.elastic import BULK, DENSITY, GRAVITY, POISSON, SHEAR, STATES, YOUNG, choose, operators, refine
+from periporo_tools.verification.elastic import (
+    BULK, DENSITY, GRAVITY, HORIZON_RATIO, POISSON, SHEAR, SOFT_FACES, SOFT_FACES_ORDER, STATES, YOUNG, choose,
+    mean_displacement, operators, refine,
+)
 from periporo_tools.verification.outcome import Curve, Outcome, Row
 from periporo_tools.verification.runner import Run, Runner
 
@@ -30,19 +33,13 @@ def hanging_bar(runner: Runner) -> Outcome:
         summed = np.concatenate([[0.0], np.cumsum(0.5 * (strain[1:] + strain[:-1]) * np.diff(places))])
         return np.interp(z, places, summed)
 
-    def axis(run: Run) -> tuple[np.ndarray, np.ndarray]:
-        last = run.fields()
-        z = last["initial_position"][:, 2]
-        layers = np.unique(np.round(z, 9))
-        return layers, np.array([last["displacement"][np.isclose(z, layer), 2].mean() for layer in layers])
-
     def difference(run: Run) -> float:
-        layers, mean = axis(run)
+        layers, mean = mean_displacement(run, along=2)
         return mean[-1] / displacement(layers[-1]) - 1.0
 
     curve = Curve("Bar under its own weight", "distance from the plane [mm]", "displacement [um]", [])
     for state, influence in operators(runner):
-        layers, mean = axis(runner("hanging_bar", **choose(state, influence)))
+        layers, mean = mean_displacement(runner("hanging_bar", **choose(state, influence)), along=2)
         outcome.rows.append(
             Row(f"hanging_bar: {state}, {influence}", "elongation", "m", float(displacement(layers[-1])), mean[-1],
                 0.003, "the section at the plane, which may not warp, delta/L = 10 per cent of a bar whose stress"
@@ -74,7 +71,7 @@ def self_weight_column(runner: Runner) -> Outcome:
 
     def resolved_deviation(run: Run) -> float:
         depth = profile(run)[0]
-        horizon = 3.015 * (depth[1] - depth[0])
+        horizon = HORIZON_RATIO * (depth[1] - depth[0])
         smooth = np.convolve(deviation(run), (0.25, 0.5, 0.25), "same")
         return float(np.abs(smooth[(depth > depth[0] + horizon) & (depth < depth[-1] - horizon)]).max())
 
@@ -134,10 +131,9 @@ def cantilever(runner: Runner) -> Outcome:
         return bending + DENSITY * gravity / (shear_factor * SHEAR) * (length * x - 0.5 * x**2)
 
     def axis(run: Run) -> tuple[np.ndarray, np.ndarray]:
-        last = run.fields()
-        x = last["initial_position"][:, 0]
-        sections = np.unique(np.round(x[x > 0.0], 9))
-        return sections, np.array([-last["displacement"][np.isclose(x, s), 2].mean() for s in sections])
+        """The free part of the beam, and how far it hangs down."""
+        x, mean = mean_displacement(run, along=0)
+        return x[x > 0.0], -mean[x > 0.0]
 
     def stiffness(run: Run) -> float:
         x, found = axis(run)
@@ -146,15 +142,12 @@ def cantilever(runner: Runner) -> Outcome:
     curve = Curve("Cantilever under its own weight", "distance from the clamp [mm]", "deflection [mm]", [])
     for state in STATES:
         finest = refine(
-            outcome, runner, "cantilever", state, spacings, lambda run: stiffness(run) - 1.0, 1.5, 0.5,
-            "second order in the end, less while the soft layers of the faces fill the section",
+            outcome, runner, "cantilever", state, spacings, lambda run: stiffness(run) - 1.0, 1.5, 0.5, SOFT_FACES_ORDER
         )
-        horizon = 3.015e-3 * spacings[-1]
+        horizon = HORIZON_RATIO * 1e-3 * spacings[-1]
         outcome.rows.append(
             Row(f"cantilever: {state}, spacing {spacings[-1]:g} mm", "stiffness over that of the beam", "-", 1.0,
-                stiffness(finest), 3.0 * (horizon / height) ** 2,
-                "within delta of a face a bond sees the gradient up to 3 delta/8 farther in, where it is smaller: of"
-                " E I at most 3 delta^2/h^2")
+                stiffness(finest), 3.0 * (horizon / height) ** 2, SOFT_FACES + "E I at most 3 delta^2/h^2")
         )
         x, found = axis(finest)
         curve.found.append((state, 1e3 * x, 1e3 * found))

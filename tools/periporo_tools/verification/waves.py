@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from periporo_tools.verification.elastic import BULK, DENSITY, SHEAR, STATES, YOUNG, choose, operators, refine
+from periporo_tools.verification.elastic import (
+    BULK, DENSITY, HORIZON_RATIO, SHEAR, SOFT_FACES, SOFT_FACES_ORDER, STATES, YOUNG, choose, operators, refine,
+)
 from periporo_tools.verification.outcome import Curve, Outcome, Row
 from periporo_tools.verification.runner import Run, Runner
 
@@ -122,23 +124,22 @@ def torsion(runner: Runner) -> Outcome:
             [(snapshots[0]["mass"] * (x[:, 0] * u[:, 1] - x[:, 1] * u[:, 0])).sum() for u in v]
         )
 
-    def frequency(run: Run) -> float:
-        return _frequency(*spin(run), 2.0 * np.pi * expected) / (2.0 * np.pi)
+    def frequency(time: np.ndarray, momentum: np.ndarray) -> float:
+        return _frequency(time, momentum, 2.0 * np.pi * expected) / (2.0 * np.pi)
 
     curve = Curve("Torsional vibration of a bar", "time [ms]", "angular momentum over its start [-]", [])
     for state in STATES:
         finest = refine(
-            outcome, runner, "torsion", state, spacings, lambda run: frequency(run) / expected - 1.0, 1.5, 0.5,
-            "second order in the end, less while the soft layers of the faces fill the section",
-        )
-        horizon = 3.015e-3 * spacings[-1]
-        outcome.rows.append(
-            Row(f"torsion: {state}, spacing {spacings[-1]:g} mm", "lowest frequency", "Hz", expected, frequency(finest),
-                1.0 - np.sqrt(1.0 - (horizon / half_width) ** 2),
-                "within delta of a face a bond sees the gradient up to 3 delta/8 farther in, where it is smaller: of"
-                " G J at most delta^2/r^2")
+            outcome, runner, "torsion", state, spacings, lambda run: frequency(*spin(run)) / expected - 1.0, 1.5, 0.5,
+            SOFT_FACES_ORDER,
         )
         time, momentum = spin(finest)
+        horizon = HORIZON_RATIO * 1e-3 * spacings[-1]
+        outcome.rows.append(
+            Row(f"torsion: {state}, spacing {spacings[-1]:g} mm", "lowest frequency", "Hz", expected,
+                frequency(time, momentum), 1.0 - np.sqrt(1.0 - (horizon / half_width) ** 2),
+                SOFT_FACES + "G J at most delta^2/r^2")
+        )
         curve.found.append((state, 1e3 * time, momentum / momentum[0]))
         if not curve.expected:
             curve.expected.append(
