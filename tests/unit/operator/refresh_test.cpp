@@ -52,6 +52,19 @@ Model with_memory(const ForceState& force)
     return model;
 }
 
+/// Calls check(force state's name, force state, block) with every operator, the points' variables being collected.
+template <class Check>
+void for_every_block_with_memory(const Check& check)
+{
+    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
+        CAPTURE(state);
+        CAPTURE(influence);
+        Model model = with_memory(force);
+        collect_point_variables(model, force);
+        check(state, force, model);
+    });
+}
+
 Vector3 turned(const Vector3& x, const Vector3& centre, double angle)
 {
     return centre + Eigen::AngleAxisd(angle, Vector3(1.0, 2.0, -0.5).normalized()) * (x - centre);
@@ -179,11 +192,7 @@ TEST_CASE("variables of the point are the mean of its bonds once these were set"
 
 TEST_CASE("bonds go on from the variables of their points, which neither fade nor mix through many refreshes")
 {
-    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
-        CAPTURE(state);
-        CAPTURE(influence);
-        Model model = with_memory(force);
-        collect_point_variables(model, force);
+    for_every_block_with_memory([](const std::string& state, ForceState& force, Model& model) {
         const std::vector<double> start = model.point_state;
         for (int refresh = 0; refresh < 20; ++refresh) {
             set_velocity(model, [&](const Vector3&) { return Vector3(refresh % 2 == 0 ? 0.1 : -0.1, 0.0, 0.0); });
@@ -207,11 +216,7 @@ TEST_CASE("bonds go on from the variables of their points, which neither fade no
 
 TEST_CASE("a uniform expansion moves the variables of all points by its own amount")
 {
-    for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
-        CAPTURE(state);
-        CAPTURE(influence);
-        Model model = with_memory(force);
-        collect_point_variables(model, force);
+    for_every_block_with_memory([](const std::string&, ForceState& force, Model& model) {
         const std::vector<double> start = model.point_state;
         const double dt = 1e-4;
         set_velocity(model, [](const Vector3& x) { return x; });
