@@ -36,7 +36,10 @@ _REFRESH = "unit.operator.refresh_test"
 
 MUTATIONS = {
     "influence_dropped_from_the_force": Mutation(
-        "operator/sub_horizon.cpp", "store_pack(omega * (moment", "store_pack((moment", _IDENTITIES
+        "operator/sub_horizon.cpp",
+        "const Pack weight = omega * load_pack(w.volume.data() + at) * self_volume;",
+        "const Pack weight = load_pack(w.volume.data() + at) * self_volume;",
+        _IDENTITIES,
     ),
     "influence_dropped_from_the_projected_force": Mutation(
         "operator/bond_projection.cpp", "g.omega * ((own[3 * r]", "((own[3 * r]", _IDENTITIES
@@ -54,7 +57,7 @@ MUTATIONS = {
         _IDENTITIES,
     ),
     "reversed_spin": Mutation(
-        "operator/bond_update.cpp",
+        "operator/sub_horizon.cpp",
         "const Real quarter = 0.25 * time_step;",
         "const Real quarter = -0.25 * time_step;",
         _REFRESH,
@@ -73,7 +76,7 @@ MUTATIONS = {
         _REFRESH,
     ),
     "image_reaction_not_mirrored": Mutation(
-        "operator/bond_forces.cpp", "if (j >= n)", "if (j >= n && false)", _IDENTITIES
+        "operator/bond_forces.cpp", "if (arrival.isometry != 0)", "if (false)", _IDENTITIES
     ),
     "pair_taken_for_sound": Mutation(
         "operator/sub_horizon.cpp",

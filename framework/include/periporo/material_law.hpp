@@ -16,14 +16,14 @@
 //     };
 //     PERIPORO_PLUGIN(periporo::PluginKind::material, periporo::LawMaterial<MyLaw>, "my_law", "What it is")
 //
-// `Real` is double or Pack; branches on values are written with select() and any() of pack.hpp.
+// `Real` is double, Pack or PackPair; branches on values are written with select() and any() of pack.hpp.
 #pragma once
 
 #include "periporo/material.hpp"
 #include "periporo/tensor.hpp"
 
 #include <array>
-#include <bit>
+#include <type_traits>
 
 namespace periporo {
 
@@ -74,65 +74,115 @@ public:
 
     MaterialStatus update(const MaterialBatch& batch) const override
     {
-        for (std::size_t p = 0; p < batch.packs; ++p) {
-            if (batch.active[p] == 0)
-                continue;
-            LawInput<Pack, state_count> input = load(batch, p);
-            input.strain_increment = load_tensor(batch.strain_increment + p * 6 * pack_width);
-            input.time_step = batch.time_step;
-            double* bond = batch.bonds + p * rows * pack_width;
-            if (batch.response == MaterialResponse::elastic) {
-                store_tensor(elastic_stress(input.stress, input.strain_increment, bulk_modulus(), shear_modulus()),
-                             bond);
-                continue;
-            }
-            const LawResult<Pack, state_count> result = law_.update(input);
-            store_tensor(result.stress, bond);
-            for (std::size_t s = 0; s < state_count; ++s)
-                result.state[s].copy_to(bond + (6 + s) * pack_width, std::experimental::vector_aligned);
-            if (any(result.failed))
-                for (std::size_t lane = 0; lane < pack_width; ++lane)
-                    if (result.failed[lane] && (batch.active[p] >> lane & 1u) != 0)
-                        return {false, p * pack_width + lane, result.reason};
+        MaterialStatus status;
+        const auto next_active = [&](std::size_t p) {
+            while (p < batch.packs && batch.active[p] == 0)
+                ++p;
+            return p;
+        };
+        for (std::size_t p = next_active(0); p < batch.packs && status.converged;) {
+            const std::size_t q = next_active(p + 1);
+            if (q < batch.packs)
+                update<PackPair>(batch, p, q - p, status);
+            else
+                update<Pack>(batch, p, 0, status);
+            p = next_active(q + 1);
         }
-        return {};
+        return status;
     }
 
     void initialize(const MaterialBatch& batch, double overconsolidation_ratio) const override
     {
         for (std::size_t p = 0; p < batch.packs; ++p) {
-            const std::array<Pack, state_count> state = law_.initial_state(load(batch, p), overconsolidation_ratio);
+            const std::array<Pack, state_count> state =
+                law_.initial_state(load<Pack>(batch, p, 0), overconsolidation_ratio);
             for (std::size_t s = 0; s < state_count; ++s)
-                state[s].copy_to(batch.bonds + (p * rows + 6 + s) * pack_width, std::experimental::vector_aligned);
+                store_row(state[s], batch.bonds + p * rows * pack_width, 6 + s, 0);
         }
     }
 
 private:
-    static Pack load_row(const double* row) { return Pack(row, std::experimental::vector_aligned); }
-
-    static SymmetricTensor<Pack> load_tensor(const double* rows_of_pack)
+    // Rows of one pack or of two; those of the second lie `distance` doubles behind those of the first.
+    template <class Real>
+    [[gnu::always_inline]] static Real load_row(const double* rows_of_pack, std::size_t row, std::size_t distance)
     {
-        const auto row = [&](std::size_t c) { return load_row(rows_of_pack + c * pack_width); };
+        const double* at = rows_of_pack + row * pack_width;
+        if constexpr (std::is_same_v<Real, PackPair>)
+            return {Pack(at, std::experimental::vector_aligned),
+                    Pack(at + distance, std::experimental::vector_aligned)};
+        else
+            return Pack(at, std::experimental::vector_aligned);
+    }
+    template <class Real>
+    [[gnu::always_inline]] static void store_row(const Real& value, double* rows_of_pack, std::size_t row,
+                                                 std::size_t distance)
+    {
+        double* at = rows_of_pack + row * pack_width;
+        if constexpr (std::is_same_v<Real, PackPair>) {
+            value.first.copy_to(at, std::experimental::vector_aligned);
+            value.second.copy_to(at + distance, std::experimental::vector_aligned);
+        } else {
+            value.copy_to(at, std::experimental::vector_aligned);
+        }
+    }
+    template <class Real>
+    [[gnu::always_inline]] static SymmetricTensor<Real> load_tensor(const double* rows_of_pack, std::size_t distance)
+    {
+        const auto row = [&](std::size_t c) { return load_row<Real>(rows_of_pack, c, distance); };
         return {row(0), row(1), row(2), row(3), row(4), row(5)};
     }
-
-    static void store_tensor(const SymmetricTensor<Pack>& tensor, double* rows_of_pack)
+    template <class Real>
+    [[gnu::always_inline]] static void store_tensor(const SymmetricTensor<Real>& tensor, double* rows_of_pack,
+                                                    std::size_t distance)
     {
         std::size_t c = 0;
-        for (const Pack* component : {&tensor.xx, &tensor.yy, &tensor.zz, &tensor.xy, &tensor.yz, &tensor.xz})
-            component->copy_to(rows_of_pack + pack_width * c++, std::experimental::vector_aligned);
+        for (const Real* component : {&tensor.xx, &tensor.yy, &tensor.zz, &tensor.xy, &tensor.yz, &tensor.xz})
+            store_row(*component, rows_of_pack, c++, distance);
     }
 
-    LawInput<Pack, state_count> load(const MaterialBatch& batch, std::size_t p) const
+    template <class Real>
+    [[gnu::always_inline]] LawInput<Real, state_count> load(const MaterialBatch& batch, std::size_t p,
+                                                            std::size_t apart) const
     {
-        LawInput<Pack, state_count> input;
+        LawInput<Real, state_count> input;
         const double* bond = batch.bonds + p * rows * pack_width;
-        input.stress = load_tensor(bond);
+        const std::size_t distance = apart * pack_width;
+        input.stress = load_tensor<Real>(bond, rows * distance);
         for (std::size_t s = 0; s < state_count; ++s)
-            input.state[s] = load_row(bond + (6 + s) * pack_width);
-        input.suction = load_row(batch.suction + p * pack_width);
-        input.saturation = load_row(batch.saturation + p * pack_width);
+            input.state[s] = load_row<Real>(bond, 6 + s, rows * distance);
+        input.suction = load_row<Real>(batch.suction + p * pack_width, 0, distance);
+        input.saturation = load_row<Real>(batch.saturation + p * pack_width, 0, distance);
         return input;
+    }
+
+    /// Pack p, or for PackPair packs p and p + apart.
+    template <class Real>
+    void update(const MaterialBatch& batch, std::size_t p, std::size_t apart, MaterialStatus& status) const
+    {
+        LawInput<Real, state_count> input = load<Real>(batch, p, apart);
+        input.strain_increment = load_tensor<Real>(batch.strain_increment + p * 6 * pack_width, 6 * apart * pack_width);
+        input.time_step = batch.time_step;
+        double* bond = batch.bonds + p * rows * pack_width;
+        const std::size_t distance = rows * apart * pack_width;
+        if (batch.response == MaterialResponse::elastic) {
+            store_tensor(elastic_stress(input.stress, input.strain_increment, bulk_modulus(), shear_modulus()), bond,
+                         distance);
+            return;
+        }
+        const LawResult<Real, state_count> result = law_.update(input);
+        store_tensor(result.stress, bond, distance);
+        for (std::size_t s = 0; s < state_count; ++s)
+            store_row(result.state[s], bond, 6 + s, distance);
+        if (!any(result.failed))
+            return;
+        const Real failed = select(result.failed, Real(1.0), Real(0.0));
+        for (std::size_t n = 0; n < (apart > 0 ? 2 : 1) * pack_width; ++n) {
+            const std::size_t pack = n < pack_width ? p : p + apart;
+            if (lane_of(failed, n) != 0.0 && (batch.active[pack] >> n % pack_width & 1u) != 0) {
+                status = {false, pack * pack_width + n % pack_width, result.reason};
+                return;
+            }
+        }
     }
 
     Law law_;

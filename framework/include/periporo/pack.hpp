@@ -33,54 +33,54 @@ template <class Real>
 using Mask = typename MaskOf<Real>::type;
 
 /// `a` where the mask holds, `b` elsewhere. Both are evaluated.
-inline double select(bool mask, double a, double b)
+[[gnu::always_inline]] inline double select(bool mask, double a, double b)
 {
     return mask ? a : b;
 }
-inline Pack select(const PackMask& mask, const Pack& a, Pack b)
+[[gnu::always_inline]] inline Pack select(const PackMask& mask, const Pack& a, Pack b)
 {
     where(mask, b) = a;
     return b;
 }
 
 /// True when the mask holds in at least one lane.
-inline bool any(bool mask)
+[[gnu::always_inline]] inline bool any(bool mask)
 {
     return mask;
 }
-inline bool any(const PackMask& mask)
+[[gnu::always_inline]] inline bool any(const PackMask& mask)
 {
     return std::experimental::any_of(mask);
 }
 
 /// True when the mask holds in every lane.
-inline bool all(bool mask)
+[[gnu::always_inline]] inline bool all(bool mask)
 {
     return mask;
 }
-inline bool all(const PackMask& mask)
+[[gnu::always_inline]] inline bool all(const PackMask& mask)
 {
     return std::experimental::all_of(mask);
 }
 
-inline double minimum(double a, double b)
+[[gnu::always_inline]] inline double minimum(double a, double b)
 {
     return std::min(a, b);
 }
-inline Pack minimum(const Pack& a, const Pack& b)
+[[gnu::always_inline]] inline Pack minimum(const Pack& a, const Pack& b)
 {
     return std::experimental::min(a, b);
 }
-inline double maximum(double a, double b)
+[[gnu::always_inline]] inline double maximum(double a, double b)
 {
     return std::max(a, b);
 }
-inline Pack maximum(const Pack& a, const Pack& b)
+[[gnu::always_inline]] inline Pack maximum(const Pack& a, const Pack& b)
 {
     return std::experimental::max(a, b);
 }
 
-inline double square_root(double a)
+[[gnu::always_inline]] inline double square_root(double a)
 {
     return std::sqrt(a);
 }
@@ -88,27 +88,27 @@ inline double square_root(double a)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-inline Pack square_root(const Pack& a)
+[[gnu::always_inline]] inline Pack square_root(const Pack& a)
 {
     return std::experimental::sqrt(a);
 }
 #pragma GCC diagnostic pop
 
-inline double absolute(double a)
+[[gnu::always_inline]] inline double absolute(double a)
 {
     return std::abs(a);
 }
-inline Pack absolute(const Pack& a)
+[[gnu::always_inline]] inline Pack absolute(const Pack& a)
 {
     return std::experimental::abs(a);
 }
 
 /// Natural logarithm; the pack version works lane by lane and is meant for set-up code.
-inline double logarithm(double a)
+[[gnu::always_inline]] inline double logarithm(double a)
 {
     return std::log(a);
 }
-inline Pack logarithm(const Pack& a)
+[[gnu::always_inline]] inline Pack logarithm(const Pack& a)
 {
     return Pack([&](auto lane) { return std::log(a[lane]); });
 }
@@ -116,11 +116,11 @@ inline Pack logarithm(const Pack& a)
 /// e^a. The pack version reduces the argument to |r| <= ln(2)/2 (Cody and Waite's two-part ln 2), sums the Taylor
 /// series to r^13/13!, and scales by 2^n; it agrees with std::exp within 2 units in the last place on [-708, 709]
 /// and is held at the ends of that interval outside it.
-inline double exponential(double a)
+[[gnu::always_inline]] inline double exponential(double a)
 {
     return std::exp(a);
 }
-inline Pack exponential(const Pack& a)
+[[gnu::always_inline]] inline Pack exponential(const Pack& a)
 {
     using Bits = std::experimental::rebind_simd_t<std::int64_t, Pack>;
     static_assert(sizeof(Bits) == sizeof(Pack));
@@ -141,19 +141,131 @@ inline Pack exponential(const Pack& a)
 }
 
 /// The outcome of a comparison as bits: bit l is lane l.
-inline std::uint8_t lane_bits(const PackMask& mask)
+[[gnu::always_inline]] inline std::uint8_t lane_bits(const PackMask& mask)
 {
     return static_cast<std::uint8_t>(mask.__to_bitset().to_ulong());
 }
 
 /// Lane `lane` of a value; a double has one lane, whatever is asked for.
-inline double lane_of(double a, std::size_t)
+[[gnu::always_inline]] inline double lane_of(double a, std::size_t)
 {
     return a;
 }
-inline double lane_of(const Pack& a, std::size_t lane)
+[[gnu::always_inline]] inline double lane_of(const Pack& a, std::size_t lane)
 {
     return a[lane];
+}
+
+/// Two packs that go through a law side by side: the long chains of roots and quotients of one fill the waits of the
+/// other.
+struct PackPair {
+    Pack first, second;
+
+    PackPair() = default;
+    [[gnu::always_inline]] PackPair(double value) : first(value), second(value) {}
+    [[gnu::always_inline]] PackPair(const Pack& a, const Pack& b) : first(a), second(b) {}
+};
+/// The outcome of comparing two pairs.
+struct PackPairMask {
+    PackMask first, second;
+
+    [[gnu::always_inline]] explicit PackPairMask(bool value) : first(value), second(value) {}
+    [[gnu::always_inline]] PackPairMask(const PackMask& a, const PackMask& b) : first(a), second(b) {}
+};
+template <>
+struct MaskOf<PackPair> {
+    using type = PackPairMask;
+};
+
+#define PERIPORO_PAIRWISE(result, operation)                                                                           \
+    [[gnu::always_inline]] inline result operator operation(const PackPair& a, const PackPair& b)                      \
+    {                                                                                                                  \
+        return {a.first operation b.first, a.second operation b.second};                                               \
+    }
+PERIPORO_PAIRWISE(PackPair, +)
+PERIPORO_PAIRWISE(PackPair, -)
+PERIPORO_PAIRWISE(PackPair, *)
+PERIPORO_PAIRWISE(PackPair, /)
+PERIPORO_PAIRWISE(PackPairMask, <)
+PERIPORO_PAIRWISE(PackPairMask, <=)
+PERIPORO_PAIRWISE(PackPairMask, >)
+PERIPORO_PAIRWISE(PackPairMask, >=)
+PERIPORO_PAIRWISE(PackPairMask, ==)
+PERIPORO_PAIRWISE(PackPairMask, !=)
+#undef PERIPORO_PAIRWISE
+
+[[gnu::always_inline]] inline PackPair operator-(const PackPair& a)
+{
+    return {-a.first, -a.second};
+}
+[[gnu::always_inline]] inline PackPair& operator+=(PackPair& a, const PackPair& b)
+{
+    return a = a + b;
+}
+[[gnu::always_inline]] inline PackPair& operator-=(PackPair& a, const PackPair& b)
+{
+    return a = a - b;
+}
+[[gnu::always_inline]] inline PackPair& operator*=(PackPair& a, const PackPair& b)
+{
+    return a = a * b;
+}
+[[gnu::always_inline]] inline PackPair& operator/=(PackPair& a, const PackPair& b)
+{
+    return a = a / b;
+}
+[[gnu::always_inline]] inline PackPairMask operator&&(const PackPairMask& a, const PackPairMask& b)
+{
+    return {a.first && b.first, a.second && b.second};
+}
+[[gnu::always_inline]] inline PackPairMask operator||(const PackPairMask& a, const PackPairMask& b)
+{
+    return {a.first || b.first, a.second || b.second};
+}
+[[gnu::always_inline]] inline PackPairMask operator!(const PackPairMask& a)
+{
+    return {!a.first, !a.second};
+}
+[[gnu::always_inline]] inline PackPair select(const PackPairMask& mask, const PackPair& a, const PackPair& b)
+{
+    return {select(mask.first, a.first, b.first), select(mask.second, a.second, b.second)};
+}
+[[gnu::always_inline]] inline bool any(const PackPairMask& mask)
+{
+    return any(mask.first || mask.second);
+}
+[[gnu::always_inline]] inline bool all(const PackPairMask& mask)
+{
+    return all(mask.first && mask.second);
+}
+[[gnu::always_inline]] inline PackPair minimum(const PackPair& a, const PackPair& b)
+{
+    return {minimum(a.first, b.first), minimum(a.second, b.second)};
+}
+[[gnu::always_inline]] inline PackPair maximum(const PackPair& a, const PackPair& b)
+{
+    return {maximum(a.first, b.first), maximum(a.second, b.second)};
+}
+[[gnu::always_inline]] inline PackPair square_root(const PackPair& a)
+{
+    return {square_root(a.first), square_root(a.second)};
+}
+[[gnu::always_inline]] inline PackPair absolute(const PackPair& a)
+{
+    return {absolute(a.first), absolute(a.second)};
+}
+[[gnu::always_inline]] inline PackPair logarithm(const PackPair& a)
+{
+    return {logarithm(a.first), logarithm(a.second)};
+}
+[[gnu::always_inline]] inline PackPair exponential(const PackPair& a)
+{
+    return {exponential(a.first), exponential(a.second)};
+}
+/// Lanes of the first pack, then of the second.
+[[gnu::always_inline]] inline double lane_of(const PackPair& a, std::size_t lane)
+{
+    return lane < pack_width ? a.first[lane] : a.second[lane - pack_width];
 }
 
 } // namespace periporo

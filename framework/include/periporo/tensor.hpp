@@ -162,18 +162,31 @@ SymmetricTensor<Real> rotated(const SymmetricTensor<Real>& a, const Tensor<Real>
             t.yx * b.zx + t.yy * b.zy + t.yz * b.zz, t.xx * b.zx + t.xy * b.zy + t.xz * b.zz};
 }
 
-/// The inverse of a general tensor; the caller knows that it exists.
+/// A tensor and its determinant, which its adjugate is to be divided by.
 template <class Real>
-Tensor<Real> inverse(const Tensor<Real>& a)
+struct Adjugate {
+    Tensor<Real> tensor;
+    Real determinant;
+};
+
+/// The adjugate of a general tensor, det(a) a^-1; defined for singular tensors too.
+template <class Real>
+Adjugate<Real> adjugate(const Tensor<Real>& a)
 {
     const Real cxx = a.yy * a.zz - a.yz * a.zy;
     const Real cyx = a.yz * a.zx - a.yx * a.zz;
     const Real czx = a.yx * a.zy - a.yy * a.zx;
-    const Real reciprocal = 1.0 / (a.xx * cxx + a.xy * cyx + a.xz * czx);
-    return Tensor<Real>{cxx, a.xz * a.zy - a.xy * a.zz, a.xy * a.yz - a.xz * a.yy,
-                        cyx, a.xx * a.zz - a.xz * a.zx, a.xz * a.yx - a.xx * a.yz,
-                        czx, a.xy * a.zx - a.xx * a.zy, a.xx * a.yy - a.xy * a.yx} *
-           reciprocal;
+    return {{cxx, a.xz * a.zy - a.xy * a.zz, a.xy * a.yz - a.xz * a.yy, cyx, a.xx * a.zz - a.xz * a.zx,
+             a.xz * a.yx - a.xx * a.yz, czx, a.xy * a.zx - a.xx * a.zy, a.xx * a.yy - a.xy * a.yx},
+            a.xx * cxx + a.xy * cyx + a.xz * czx};
+}
+
+/// The inverse of a general tensor; the caller knows that it exists.
+template <class Real>
+Tensor<Real> inverse(const Tensor<Real>& a)
+{
+    const Adjugate<Real> adjugate_of_a = adjugate(a);
+    return adjugate_of_a.tensor * Real(1.0 / adjugate_of_a.determinant);
 }
 
 } // namespace periporo

@@ -27,6 +27,7 @@ inline constexpr Dimension time{0, 0, 1};
 inline constexpr Dimension mass{1, 0, 0};
 inline constexpr Dimension velocity{0, 1, -1};
 inline constexpr Dimension angular_velocity{0, 0, -1}; ///< rad/s
+inline constexpr Dimension rate{0, 0, -1};             ///< 1/s
 inline constexpr Dimension acceleration{0, 1, -2};
 inline constexpr Dimension density{1, -3, 0};
 inline constexpr Dimension force{1, 1, -2};

@@ -16,6 +16,15 @@ Vector3 vector_of(const std::vector<double>& list)
     return {list.at(0), list.at(1), list.at(2)};
 }
 
+/// From xx, yy, zz, xy, yz, xz.
+Eigen::Matrix3d symmetric_matrix_of(const std::vector<double>& list)
+{
+    Eigen::Matrix3d matrix;
+    matrix << list.at(0), list.at(3), list.at(5), list.at(3), list.at(1), list.at(4), list.at(5), list.at(4),
+        list.at(2);
+    return matrix;
+}
+
 std::optional<double> optional_real(const Parameters& values, const std::string& name)
 {
     return values.has(name) ? std::optional(values.real(name)) : std::nullopt;
@@ -57,6 +66,7 @@ BodyDescription body_of(const CheckedTable& table)
     body.saturation = table.own.real("saturation");
     body.velocity = vector_of(table.own.real_list("velocity"));
     body.angular_velocity = vector_of(table.own.real_list("angular_velocity"));
+    body.strain_rate = symmetric_matrix_of(table.own.real_list("strain_rate"));
     body.initial_stress = initial_stress_of(table.one("initial_stress"));
     return body;
 }

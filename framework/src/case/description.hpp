@@ -55,10 +55,11 @@ struct BodyDescription {
     std::string name;
     PluginChoice geometry;
     std::string material;
-    double suction = 0.0;                       ///< s >= 0 [Pa]
-    double saturation = 0.0;                    ///< S_r [-]; 0 with s = 0 is "dry"
-    Vector3 velocity = Vector3::Zero();         ///< of the centre of mass at the start [m/s]
-    Vector3 angular_velocity = Vector3::Zero(); ///< about the centre of mass, at the start [rad/s]
+    double suction = 0.0;                                  ///< s >= 0 [Pa]
+    double saturation = 0.0;                               ///< S_r [-]; 0 with s = 0 is "dry"
+    Vector3 velocity = Vector3::Zero();                    ///< of the centre of mass at the start [m/s]
+    Vector3 angular_velocity = Vector3::Zero();            ///< about the centre of mass, at the start [rad/s]
+    Eigen::Matrix3d strain_rate = Eigen::Matrix3d::Zero(); ///< about the centre of mass, at the start, symmetric [1/s]
     InitialStressDescription initial_stress;
 };
 

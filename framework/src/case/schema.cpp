@@ -91,7 +91,11 @@ TableRules body_rules()
          Parameter::real_list("velocity", dimension::velocity, 3, "Initial velocity").by_default({0.0, 0.0, 0.0}),
          Parameter::real_list("angular_velocity", dimension::angular_velocity, 3,
                               "Initial angular velocity about the centre of mass")
-             .by_default({0.0, 0.0, 0.0})}};
+             .by_default({0.0, 0.0, 0.0}),
+         Parameter::real_list("strain_rate", dimension::rate, 6,
+                              "Initial rate of deformation about the centre of mass: xx, yy, zz, xy, yz, xz, as in "
+                              "\"20 s^-1\"")
+             .by_default({0.0, 0.0, 0.0, 0.0, 0.0, 0.0})}};
     rules.nested = {
         {"geometry", TableShape::single, TablePresence::required, "The region that the body fills", geometry_rules()},
         {"initial_stress", TableShape::single, TablePresence::defaulted, "Effective stress at the start",

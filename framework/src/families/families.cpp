@@ -33,8 +33,6 @@ Families Families::find(const Points& points, IsometryTable& isometries, double 
     Families families;
     families.images_ = find_images(points.position, isometries, horizon);
     families.find_neighbours(points, isometries, horizon);
-    families.find_reverse(isometries);
-    families.find_membership(points, isometries, horizon);
     return families;
 }
 
@@ -86,17 +84,9 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
                         "each other",
                         points.id[static_cast<std::size_t>(crowded - count_.begin())], *crowded, largest_family));
     first_pack_.assign(n + 1, 0);
-    first_byte_.assign(n, 0);
-    std::size_t bytes = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t packs = (count_[i] + pack_width - 1) / pack_width;
-        first_pack_[i + 1] = first_pack_[i] + packs;
-        first_byte_[i] = bytes;
-        bytes += count_[i] * packs;
-    }
-    membership_.resize(bytes);
+    for (std::size_t i = 0; i < n; ++i)
+        first_pack_[i + 1] = first_pack_[i] + (count_[i] + pack_width - 1) / pack_width;
     neighbours_.resize(first_pack_[n] * pack_width);
-    reverse_.resize(first_pack_[n] * pack_width);
 #pragma omp parallel for schedule(static)
     for (std::size_t block = 0; block < blocks; ++block) {
         const std::uint32_t* next = found[block].data();
@@ -109,71 +99,16 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
     }
 }
 
-void Families::find_reverse(const IsometryTable& isometries)
+std::size_t Families::opposite(std::uint32_t point, std::uint32_t neighbour, const IsometryTable& isometries) const
 {
-    bool mutual = true;
-#pragma omp parallel for schedule(static) reduction(&& : mutual)
-    for (std::size_t i = 0; i < count_.size(); ++i) {
-        const std::size_t first = first_pack_[i] * pack_width;
-        for (std::size_t b = first; b < first_pack_[i + 1] * pack_width; ++b) {
-            if (b >= first + count_[i]) {
-                reverse_[b] = static_cast<std::uint32_t>(b);
-                continue;
-            }
-            const std::uint32_t p = parent(neighbours_[b]);
-            const std::uint64_t wanted =
-                (static_cast<std::uint64_t>(isometries.inverse(isometry(neighbours_[b]))) << 32) | i;
-            const std::uint32_t* begin = neighbours_.data() + first_pack_[p] * pack_width;
-            const std::uint32_t* end = begin + count_[p];
-            const std::uint32_t* at =
-                std::lower_bound(begin, end, wanted, [this](std::uint32_t c, std::uint64_t k) { return key(c) < k; });
-            if (at == end || key(*at) != wanted)
-                mutual = false;
-            else
-                reverse_[b] = static_cast<std::uint32_t>(at - neighbours_.data());
-        }
-    }
-    if (!mutual)
+    const FamilyView family = (*this)[parent(neighbour)];
+    const std::uint64_t wanted = (static_cast<std::uint64_t>(isometries.inverse(isometry(neighbour))) << 32) | point;
+    const std::uint32_t* end = family.neighbours + family.count;
+    const std::uint32_t* at = std::lower_bound(family.neighbours, end, wanted,
+                                               [this](std::uint32_t c, std::uint64_t k) { return key(c) < k; });
+    if (at == end || key(*at) != wanted)
         throw std::logic_error("families are not mutual: a bond has no bond in the opposite direction");
-}
-
-void Families::find_membership(const Points& points, const IsometryTable& isometries, double horizon)
-{
-    const Pack reach_squared = horizon * horizon;
-#pragma omp parallel
-    {
-        AlignedVector<double> zeta[3];
-#pragma omp for schedule(dynamic, chunk)
-        for (std::size_t i = 0; i < count_.size(); ++i) {
-            const std::size_t packs = first_pack_[i + 1] - first_pack_[i];
-            const std::uint32_t* family = neighbours_.data() + first_pack_[i] * pack_width;
-            for (auto& component : zeta)
-                component.resize(packs * pack_width);
-            for (std::size_t b = 0; b < packs * pack_width; ++b) {
-                // Lanes without a bond stand far away from everything.
-                Vector3 x = Vector3::Constant(1e3 * horizon * static_cast<double>(b + 2));
-                if (b < count_[i]) {
-                    const std::uint32_t c = family[b];
-                    x = (c < count_.size() ? points.position[c]
-                                           : isometries[isometry(c)].point(points.position[parent(c)])) -
-                        points.position[i];
-                }
-                for (int c = 0; c < 3; ++c)
-                    zeta[c][b] = x[c];
-            }
-            std::uint8_t* row = membership_.data() + first_byte_[i];
-            for (std::size_t k = 0; k < count_[i]; ++k, row += packs)
-                for (std::size_t p = 0; p < packs; ++p) {
-                    Pack squared = 0.0;
-                    for (const auto& component : zeta) {
-                        const Pack d =
-                            Pack(component.data() + p * pack_width, std::experimental::vector_aligned) - component[k];
-                        squared += d * d;
-                    }
-                    row[p] = lane_bits(squared <= reach_squared);
-                }
-        }
-    }
+    return static_cast<std::size_t>(at - family.neighbours);
 }
 
 std::size_t Families::bonds() const
@@ -187,8 +122,7 @@ std::size_t Families::bonds() const
 std::size_t Families::memory() const
 {
     return images_.capacity() * sizeof(Image) + count_.capacity() * sizeof(std::uint32_t) +
-           (first_pack_.capacity() + first_byte_.capacity()) * sizeof(std::size_t) +
-           (neighbours_.capacity() + reverse_.capacity()) * sizeof(std::uint32_t) + membership_.capacity();
+           first_pack_.capacity() * sizeof(std::size_t) + neighbours_.capacity() * sizeof(std::uint32_t);
 }
 
 } // namespace periporo

@@ -1,13 +1,15 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Families: for every point all points of its body within the horizon, and which of them share a sub-horizon.
+// Families: for every point all points of its body within the horizon.
 #pragma once
 
 #include "model/aligned.hpp"
 #include "model/images.hpp"
 #include "model/points.hpp"
+#include "periporo/pack.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,30 +24,27 @@ struct FamilyView {
     std::size_t first_pack = 0; ///< of this point among all packs; bond b has slot first_pack * pack_width + b
     /// Neighbour of each bond: a point, or points + n for image n.
     const std::uint32_t* neighbours = nullptr;
-    /// Slot of the bond in the opposite direction, held by the neighbour or by the parent of the image.
-    const std::uint32_t* reverse = nullptr;
-    /// Row k, one bit a bond: is the neighbour of bond k in the sub-horizon of bond b? Symmetric in k and b.
-    const std::uint8_t* membership = nullptr;
+
+    /// Number of bonds in a pack: pack_width but for the last.
+    std::size_t bonds_in(std::size_t pack) const { return std::min(pack_width, count - pack * pack_width); }
+    /// The same as lane bits.
+    std::uint8_t lanes(std::size_t pack) const { return static_cast<std::uint8_t>((1u << bonds_in(pack)) - 1u); }
 };
 
 /// Most bonds of a point; a lattice at delta = 3.015 dx has 122.
-inline constexpr std::uint32_t largest_family = 1024;
+inline constexpr std::uint32_t largest_family = 1000;
 
 class Families {
 public:
+    /// Families of all points from their current positions, images included. They are mutual: every bond has one in
+    /// the opposite direction, held by the neighbour or by the parent of the image.
     /// @throws std::runtime_error naming the point when a family is larger than largest_family.
-    /// Families of all points from their current positions, images included.
     static Families find(const Points& points, IsometryTable& isometries, double horizon);
 
     FamilyView operator[](std::size_t point) const
     {
         const std::size_t first = first_pack_[point];
-        return {count_[point],
-                first_pack_[point + 1] - first,
-                first,
-                neighbours_.data() + first * pack_width,
-                reverse_.data() + first * pack_width,
-                membership_.data() + first_byte_[point]};
+        return {count_[point], first_pack_[point + 1] - first, first, neighbours_.data() + first * pack_width};
     }
 
     std::size_t points() const { return count_.size(); }
@@ -69,21 +68,20 @@ public:
     {
         return (static_cast<std::uint64_t>(isometry(neighbour)) << 32) | parent(neighbour);
     }
+    /// The bond of the parent of `neighbour` in the opposite direction, towards `point` as seen from there: its number
+    /// in that family.
+    /// @throws std::logic_error when there is none.
+    std::size_t opposite(std::uint32_t point, std::uint32_t neighbour, const IsometryTable& isometries) const;
     /// Bytes held.
     std::size_t memory() const;
 
 private:
     void find_neighbours(const Points& points, const IsometryTable& isometries, double horizon);
-    void find_reverse(const IsometryTable& isometries);
-    void find_membership(const Points& points, const IsometryTable& isometries, double horizon);
 
     std::vector<Image> images_;
     std::vector<std::uint32_t> count_;
     std::vector<std::size_t> first_pack_; // points + 1
-    std::vector<std::size_t> first_byte_; // points
     std::vector<std::uint32_t> neighbours_;
-    std::vector<std::uint32_t> reverse_;
-    std::vector<std::uint8_t> membership_;
 };
 
 } // namespace periporo

@@ -26,6 +26,14 @@ void Model::allocate()
     free_grain.assign(n, 0);
 }
 
+void Model::find_families()
+{
+    families = Families::find(points, isometries, horizon);
+    halos = Halos::find(families);
+    if (needs_sub_horizons)
+        sub_horizons = SubHorizons::find(points, isometries, families, horizon);
+}
+
 void Model::update_records()
 {
     const std::size_t n = size();
@@ -34,9 +42,13 @@ void Model::update_records()
     const auto store = [this](std::size_t record, const Vector3& x, const Vector3& v, double volume) {
         records[record] = {{x.x(), x.y(), x.z()}, volume, {v.x(), v.y(), v.z()}, 0.0};
     };
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < n; ++i)
+    bool some_water = false;
+#pragma omp parallel for schedule(static) reduction(|| : some_water)
+    for (std::size_t i = 0; i < n; ++i) {
         store(i, points.position[i], points.velocity[i], points.volume[i]);
+        some_water = some_water || points.suction[i] != 0.0 || points.saturation[i] != 0.0;
+    }
+    wet = some_water;
 #pragma omp parallel for schedule(static)
     for (std::size_t m = 0; m < images.size(); ++m) {
         const Isometry& isometry = isometries[images[m].isometry];
@@ -50,7 +62,8 @@ std::size_t Model::memory() const
     const std::size_t per_point =
         5 * sizeof(Vector3) + 6 * sizeof(double) + sizeof(std::uint32_t) + sizeof(std::int64_t) + // Points
         2 * sizeof(Vector3) + 2 * sizeof(double) + sizeof(std::uint32_t) + 1 + state_stride * sizeof(double);
-    return size() * per_point + records.capacity() * sizeof(NeighbourRecord) + families.memory() + bonds.memory();
+    return size() * per_point + records.capacity() * sizeof(NeighbourRecord) + families.memory() +
+           sub_horizons.memory() + halos.memory() + at_places.capacity() * sizeof(double) + bonds.memory();
 }
 
 } // namespace periporo

@@ -5,6 +5,8 @@
 #pragma once
 
 #include "families/families.hpp"
+#include "families/halos.hpp"
+#include "families/sub_horizons.hpp"
 #include "model/aligned.hpp"
 #include "model/images.hpp"
 #include "model/points.hpp"
@@ -36,19 +38,29 @@ struct alignas(64) NeighbourRecord {
     Vector3 v() const { return {velocity[0], velocity[1], velocity[2]}; }
 };
 
-/// What bonds carry: stress and internal variables from step to step, the force state within one.
+/// What bonds carry from step to step: stress and internal variables.
 struct BondData {
     /// For each point its packs, for each pack `rows` rows of pack_width: effective stress, then state variables.
     AlignedVector<double> state;
-    std::vector<std::size_t> first; ///< of a point, in `state`
-    /// T of each bond [N/m6]: for each pack three rows.
-    AlignedVector<double> force_state;
+    std::vector<std::size_t> first;   ///< of a point, in `state`
     std::vector<std::uint8_t> active; ///< for each pack one bit a bond: does it carry stress?
 
     std::size_t memory() const
     {
-        return (state.capacity() + force_state.capacity()) * sizeof(double) + first.capacity() * sizeof(std::size_t) +
-               active.capacity();
+        return state.capacity() * sizeof(double) + first.capacity() * sizeof(std::size_t) + active.capacity();
+    }
+};
+
+/// Seconds that a few points took of an evaluation, by its parts; only their ratios mean something.
+struct OperatorSamples {
+    double kinematics = 0.0;
+    double material = 0.0;
+    double force = 0.0;
+
+    OperatorSamples& operator+=(const OperatorSamples& other)
+    {
+        kinematics += other.kinematics, material += other.material, force += other.force;
+        return *this;
     }
 };
 
@@ -59,7 +71,11 @@ struct Model {
     std::vector<Body> bodies;
     Points points;
     IsometryTable isometries;
+    bool wet = false; ///< has some point suction or saturation? As update_records() found it.
     Families families;
+    bool needs_sub_horizons = true; ///< does the force state in use ask for them?
+    SubHorizons sub_horizons;
+    Halos halos;
     BondData bonds;
 
     /// Mean stress and state variables of each point, `state_stride` doubles a point, from the last refresh; what a
@@ -70,12 +86,16 @@ struct Model {
     std::vector<Vector3> refresh_position;  ///< positions that the families were found from
     AlignedVector<NeighbourRecord> records; ///< of points, then images
 
+    /// Within an evaluation: what gathers at the places of the halos, a few doubles a place.
+    AlignedVector<double> at_places;
+
     // Outcome of the last evaluation of the operator, point by point.
     std::vector<Vector3> internal_force; ///< [N]
     std::vector<double> volume_rate;     ///< tr L dt [-]
     std::vector<double> stress_work;     ///< of the step: V sum_b w_b sigma_b : D_b dt [J]
     std::vector<std::uint32_t> inactive_bonds;
     std::vector<std::uint8_t> free_grain; ///< 1: no active bond
+    OperatorSamples operator_samples;     ///< of this evaluation, or since they were set to zero
 
     std::size_t size() const { return points.size(); }
     const Body& body_of(std::size_t point) const { return bodies[points.body[point]]; }
@@ -83,6 +103,8 @@ struct Model {
 
     /// Sets the sizes of everything that has one value a point.
     void allocate();
+    /// Families, and what follows from them, at the current positions.
+    void find_families();
     /// Copies positions, velocities and volumes of points and images to the records.
     void update_records();
     /// Bytes held in points, families and bonds.

@@ -9,27 +9,20 @@
 
 namespace periporo {
 
-void sum_bond_forces(Model& model)
+void BondForces::hand_out(Model& model)
 {
-    const std::size_t n = model.size();
-    const double* force_state = model.bonds.force_state.data();
-    const auto bond = [force_state](std::size_t slot) {
-        const double* t = force_state + slot / pack_width * 3 * pack_width + slot % pack_width;
-        return Vector3(t[0], t[pack_width], t[2 * pack_width]);
-    };
-#pragma omp parallel for schedule(dynamic, 64)
-    for (std::size_t i = 0; i < n; ++i) {
-        const FamilyView family = model.families[i];
-        const std::size_t first = family.first_pack * pack_width;
+    const double* places = model.at_places.data();
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < model.size(); ++i) {
         Vector3 sum = Vector3::Zero();
-        for (std::size_t b = 0; b < family.count; ++b) {
-            const std::uint32_t j = family.neighbours[b];
-            Vector3 opposite = bond(family.reverse[b]);
-            if (j >= n)
-                opposite = model.isometries[model.families.isometry(j)].direction(opposite);
-            sum += model.records[j].volume * (bond(first + b) - opposite);
+        for (const Halos::Arrival arrival : model.halos.arrivals(i)) {
+            const double* at = places + arrival.place * place_stride;
+            Vector3 force(at[0], at[1], at[2]);
+            if (arrival.isometry != 0)
+                force = model.isometries[model.isometries.inverse(arrival.isometry)].direction(force);
+            sum += force;
         }
-        model.internal_force[i] = model.points.volume[i] * sum;
+        model.internal_force[i] = sum;
     }
 }
 

@@ -1,20 +1,91 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Internal forces of points from the force states of bonds, and what every force state reports.
+// Internal forces of points from the forces of bonds, and what every force state reports.
 #pragma once
 
 #include "model/model.hpp"
+#include "operator/transpose.hpp"
 #include "periporo/material.hpp"
 
+#include <chrono>
 #include <limits>
 #include <vector>
 
 namespace periporo {
 
-/// internal_force_i = V_i sum_j V_j (T_ij - T_ji); T_ji of an image bond is the mirrored T of its parent's bond. The
-/// sum runs over the bonds in their order, one point at a time: no result depends on the number of threads.
-void sum_bond_forces(Model& model);
+/// Sums internal_force_i = V_i sum_j V_j (T_ij - T_ji) bond by bond: V_i V_j T_ij goes to i and, reversed, to j; that
+/// of a bond to an image goes, mirrored, to its parent. Forces of a block of points gather at the places of its halo
+/// and are handed out afterwards, so that no result depends on the number of threads.
+class BondForces {
+public:
+    /// Before the first block of an evaluation.
+    static void prepare(Model& model) { model.at_places.resize(model.halos.places() * place_stride); }
+
+    /// Begins a block: its places are empty.
+    BondForces(Model& model, std::size_t block)
+        : halos_(model.halos), first_point_(model.halos.first_point(block)),
+          places_(model.at_places.data() + model.halos.first_place(block) * place_stride)
+    {
+        std::fill(places_, model.at_places.data() + model.halos.first_place(block + 1) * place_stride, 0.0);
+    }
+
+    /// Takes the forces of a pack of bonds, V_i V_j T_ij of the first `bonds` lanes [N], from the neighbours.
+    void take_from_neighbours(std::size_t pack, std::size_t bonds, const std::array<Pack, 3>& force)
+    {
+        alignas(64) double lanes[3][pack_width];
+        for (std::size_t c = 0; c < 3; ++c)
+            store_pack(force[c], lanes[c]);
+        const std::uint16_t* place = halos_.place_of_neighbours(pack);
+        for (std::size_t lane = 0; lane < bonds; ++lane) {
+            double* at = places_ + place[lane] * place_stride;
+            for (std::size_t c = 0; c < 3; ++c)
+                at[c] -= lanes[c][lane];
+        }
+    }
+
+    /// Gives the sum of the forces of its bonds to a point of the block.
+    void give_to(std::size_t point, const std::array<Pack, 3>& force)
+    {
+        double* at = places_ + (point - first_point_) * place_stride;
+        for (std::size_t c = 0; c < 3; ++c)
+            at[c] += reduce(force[c]);
+    }
+
+    /// After the last block: internal forces of all points.
+    static void hand_out(Model& model);
+
+private:
+    static constexpr std::size_t place_stride = 4;
+
+    const Halos& halos_;
+    std::size_t first_point_;
+    double* places_;
+};
+
+/// Takes the time of the parts of an evaluation for one point of sixteen: a clock for every point would be felt.
+class SampledTimes {
+public:
+    SampledTimes(OperatorSamples& samples, std::size_t point) : samples_(samples), sampled_(point % 16 == 8)
+    {
+        if (sampled_)
+            last_ = Clock::now();
+    }
+    void end_of(double OperatorSamples::*part)
+    {
+        if (!sampled_)
+            return;
+        const Clock::time_point now = Clock::now();
+        samples_.*part += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    OperatorSamples& samples_;
+    bool sampled_;
+    Clock::time_point last_;
+};
 
 /// Keeps the failure of the first point, whichever thread met it.
 class FirstFailure {

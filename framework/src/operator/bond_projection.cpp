@@ -33,6 +33,7 @@ Tensor<double> in_frame_of(const Isometry& isometry, const Tensor<double>& t)
 struct Workspace {
     AlignedVector<double> rows[10]; // zeta/|zeta|^2 (3), omega, velocity difference (3), zeta (3)
     AlignedVector<double> volume;
+    AlignedVector<double> gradient;
     StressWorkspace stress;
 
     void reserve(std::size_t packs)
@@ -42,6 +43,7 @@ struct Workspace {
                 row.resize(packs * pack_width);
             volume.resize(packs * pack_width);
         }
+        gradient.resize(9 * packs * pack_width);
         stress.reserve(packs);
     }
 };
@@ -204,7 +206,6 @@ void bond_gradients(const Model& model, const std::vector<PointKinematics>& poin
     for (std::size_t p = 0; p < family.packs; ++p) {
         const BondGeometry g = geometry(w, p * pack_width);
         const std::uint8_t active = model.bonds.active[family.first_pack + p];
-        w.stress.lanes[p] = active;
         const auto other = gather_point<9>(points, family.neighbours + p * pack_width,
                                            [](const PointKinematics& k) { return components(k.gradient); });
         const std::array<double, 9> own = components(points[i].gradient);
@@ -215,7 +216,7 @@ void bond_gradients(const Model& model, const std::vector<PointKinematics>& poin
                               g.v - (l[3] * g.x + l[4] * g.y + l[5] * g.z),
                               g.t - (l[6] * g.x + l[7] * g.y + l[8] * g.z)};
         const PackMask mask = lane_mask(active);
-        double* rows = w.stress.gradient.data() + p * 9 * pack_width;
+        double* rows = w.gradient.data() + p * 9 * pack_width;
         for (std::size_t r = 0; r < 3; ++r) {
             std::size_t c = 3 * r;
             for (const Pack* n : {&g.nx, &g.ny, &g.nz}) {
@@ -228,17 +229,21 @@ void bond_gradients(const Model& model, const std::vector<PointKinematics>& poin
 
 /// A_i, and sigma_ij zeta/|zeta|^2 S_ij left in the rows of the force state.
 Tensor<double> stress_sums(Model& model, const std::vector<PointKinematics>& points, std::size_t i,
-                           const FamilyView& family, const Workspace& w)
+                           const FamilyView& family, const Workspace& w, const BondStress& bs, Pack& work, Pack& dil)
 {
     Tensor<Pack> sum;
     for (std::size_t p = 0; p < family.packs; ++p) {
         const BondGeometry g = geometry(w, p * pack_width);
-        const SymmetricTensor<Pack> stress = total_stress(w.stress, p);
+        const auto out = bs.end(p);
+        const SymmetricTensor<Pack>& stress = out.stress;
+        const Pack sh = select(lane_mask(bs.active(p)), g.omega * g.volume * points[i].reciprocal_weight, Pack(0.0));
+        work += sh * out.work;
+        dil += sh * out.dilation;
         const Pack weight = mutual_weight(points, i, family.neighbours + p * pack_width, g.omega, w.stress.lanes[p]);
         const Pack tx = stress.xx * g.nx + stress.xy * g.ny + stress.xz * g.nz;
         const Pack ty = stress.xy * g.nx + stress.yy * g.ny + stress.yz * g.nz;
         const Pack tz = stress.xz * g.nx + stress.yz * g.ny + stress.zz * g.nz;
-        double* rows = model.bonds.force_state.data() + (family.first_pack + p) * 3 * pack_width;
+        double* rows = model.at_places.data() + (family.first_pack + p) * 3 * pack_width;
         store_pack(weight * tx, rows);
         store_pack(weight * ty, rows + pack_width);
         store_pack(weight * tz, rows + 2 * pack_width);
@@ -262,7 +267,7 @@ Vector3 internal_force(const Model& model, const std::vector<PointKinematics>& p
         const BondGeometry g = geometry(w, p * pack_width);
         const auto other = gather_point<9>(points, family.neighbours + p * pack_width,
                                            [](const PointKinematics& k) { return components(k.moment); });
-        const double* rows = model.bonds.force_state.data() + (family.first_pack + p) * 3 * pack_width;
+        const double* rows = model.at_places.data() + (family.first_pack + p) * 3 * pack_width;
         for (std::size_t r = 0; r < 3; ++r)
             force[r] +=
                 g.volume * (load_pack(rows + r * pack_width) +
@@ -295,6 +300,7 @@ void BondProjectionForceState::evaluate(Model& model, const Evaluation& evaluati
 {
     const std::size_t n = model.size();
     FirstFailure failure;
+    model.at_places.resize(model.families.packs() * 3 * pack_width);
     std::vector<PointKinematics> points(n + model.families.images().size());
     for_every_family(model, influence(), [&](std::size_t i, const FamilyView& family, Workspace& w) {
         points[i] = point_kinematics(family, w);
@@ -306,16 +312,24 @@ void BondProjectionForceState::evaluate(Model& model, const Evaluation& evaluati
     update_images(model, points);
     for_every_family(model, influence(), [&](std::size_t i, const FamilyView& family, Workspace& w) {
         bond_gradients(model, points, i, family, w);
-        const MaterialStatus status = update_bond_stress(model, i, evaluation, w.stress);
+        BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state.data() + model.bonds.first[i],
+                          evaluation, w.stress);
+        for (std::size_t p = 0; p < family.packs; ++p) {
+            const double* g = w.gradient.data() + p * 9 * pack_width;
+            const auto row = [&](std::size_t c) { return load_pack(g + c * pack_width); };
+            stress.begin(
+                p,
+                at_mid_step(Tensor<Pack>{row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7), row(8)},
+                            2.0 * evaluation.gradient_lag()),
+                model.bonds.active[family.first_pack + p]);
+        }
+        const MaterialStatus status = stress.update();
         if (!status.converged)
             failure.report(i, status);
-        points[i].moment = stress_sums(model, points, i, family, w) * points[i].inverse_shape;
-        const StepSums step = step_sums(w.stress, family.packs, evaluation.stress, [&](std::size_t p) {
-            const BondGeometry g = geometry(w, p * pack_width);
-            return select(lane_mask(w.stress.lanes[p]), g.omega * g.volume * points[i].reciprocal_weight, Pack(0.0));
-        });
-        model.stress_work[i] = model.points.volume[i] * step.work;
-        model.volume_rate[i] = step.dilation;
+        Pack work = 0.0, dil = 0.0;
+        points[i].moment = stress_sums(model, points, i, family, w, stress, work, dil) * points[i].inverse_shape;
+        model.stress_work[i] = model.points.volume[i] * reduce(work);
+        model.volume_rate[i] = reduce(dil);
     });
     failure.raise(model);
     update_images(model, points);

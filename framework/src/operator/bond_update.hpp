@@ -7,7 +7,8 @@
 
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
-#include "operator/masked_sums.hpp"
+#include "operator/transpose.hpp"
+#include "periporo/material_law.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,13 +16,31 @@
 
 namespace periporo {
 
-inline Pack load_pack(const double* row)
+/// For each byte of lane bits a pack of zeros and ones.
+struct LaneFactors {
+    alignas(64) double rows[std::size_t(1) << pack_width][pack_width];
+
+    constexpr LaneFactors() : rows()
+    {
+        for (std::size_t bits = 0; bits < (std::size_t(1) << pack_width); ++bits)
+            for (std::size_t lane = 0; lane < pack_width; ++lane)
+                rows[bits][lane] = static_cast<double>(bits >> lane & 1u);
+    }
+};
+inline constexpr LaneFactors lane_factors{};
+
+/// The mask whose lane l is bit l.
+inline PackMask lane_mask(std::uint8_t bits)
 {
-    return Pack(row, std::experimental::vector_aligned);
+    return load_pack(lane_factors.rows[bits]) > 0.5;
 }
-inline void store_pack(const Pack& pack, double* row)
+
+/// Zero where the mask does not hold; whatever stood there, not-finite numbers included, is gone.
+inline SymmetricTensor<Pack> where_active(const PackMask& mask, const SymmetricTensor<Pack>& t)
 {
-    pack.copy_to(row, std::experimental::vector_aligned);
+    const Pack zero = 0.0;
+    return {select(mask, t.xx, zero), select(mask, t.yy, zero), select(mask, t.zz, zero),
+            select(mask, t.xy, zero), select(mask, t.yz, zero), select(mask, t.xz, zero)};
 }
 
 /// Six rows of a pack as a symmetric tensor, and back.
@@ -65,49 +84,96 @@ Tensor<Real> step_rotation(const Tensor<Real>& gradient, double time_step)
 
 /// Buffers of one thread for the bonds of one point; they only ever grow.
 struct StressWorkspace {
-    AlignedVector<double> strain_increment; ///< packs x 6
-    AlignedVector<double> rotated_stress;   ///< packs x 6, before the material
-    AlignedVector<double> suction;          ///< packs
-    AlignedVector<double> saturation;       ///< packs
-    AlignedVector<double> total_stress;     ///< packs x 6, after the material; zero in inactive lanes
-    AlignedVector<double> gradient;         ///< packs x 9, velocity gradient at the end positions [1/s]
-    AlignedVector<double> work;             ///< packs; `advance`: mean of old and new stress : D dt, else stress : D
-    AlignedVector<std::uint8_t> lanes;      ///< packs, active lanes
+    AlignedVector<double> strain;         ///< packs x 6: `advance`: D dt, else D
+    AlignedVector<double> rotated_stress; ///< packs x 6, before the material
+    AlignedVector<double> suction;        ///< packs
+    AlignedVector<double> saturation;     ///< packs
+    AlignedVector<std::uint8_t> lanes;    ///< packs, active lanes
 
     void reserve(std::size_t packs);
 };
 
-/// Suction and saturation of the bonds of a point: means of the ends.
-void gather_water(const Model& model, std::size_t point, StressWorkspace& workspace);
+/// Suction and saturation of bonds of a point: means of the ends. `neighbours` fills whole packs.
+void gather_water(const Model& model, std::size_t point, const std::uint32_t* neighbours, std::size_t packs,
+                  StressWorkspace& workspace);
 
-/// Takes `gradient` and `lanes` of the workspace for the bonds of `point` and leaves there `total_stress`
-/// sigma' + S_r s 1, `work` and, for `advance`, `strain_increment`; `advance` also puts the new state into the bonds.
-/// Inactive lanes have zero stress afterwards, gradients of inactive lanes must be zero before.
-MaterialStatus update_bond_stress(Model& model, std::size_t point, const Evaluation& evaluation,
-                                  StressWorkspace& workspace);
+/// The stress of bonds of one point through one evaluation: begin() for every pack, then update(), then end() for
+/// every pack.
+class BondStress {
+public:
+    /// @param neighbours of the bonds, whole packs
+    /// @param state rows of the bonds, as MaterialBatch has them
+    BondStress(const Model& model, std::size_t point, const std::uint32_t* neighbours, std::size_t packs, double* state,
+               const Evaluation& evaluation, StressWorkspace& workspace);
 
-/// Share-weighted sums over the bonds of a point.
-struct StepSums {
-    double work = 0.0;     ///< of the stress, per volume [J/m3]; a power [W/m3] unless stresses were advanced
-    double dilation = 0.0; ///< tr D dt [-]; 0 unless stresses were advanced
-};
-
-/// @param share gives the shares of the bonds of a pack by its number
-template <class Share>
-StepSums step_sums(const StressWorkspace& workspace, std::size_t packs, StressUpdate update, Share&& share)
-{
-    StepSums sums;
-    for (std::size_t p = 0; p < packs; ++p) {
-        const Pack shares = share(p);
-        sums.work += reduce(shares * load_pack(workspace.work.data() + p * pack_width));
-        const double* strain = workspace.strain_increment.data() + p * 6 * pack_width;
-        if (update == StressUpdate::advance)
-            sums.dilation += reduce(shares * trace(load_symmetric(strain)));
+    /// Takes the velocity gradient of a pack [1/s], zero in inactive lanes: with respect to the positions in the middle
+    /// of the step if stress is to be advanced, otherwise to those at hand. Rotates the old stress if it is to be
+    /// advanced.
+    void begin(std::size_t pack, const Tensor<Pack>& gradient, std::uint8_t active)
+    {
+        double* strain = workspace_.strain.data() + pack * 6 * pack_width;
+        workspace_.lanes[pack] = active;
+        if (evaluation_.stress != StressUpdate::advance) {
+            store_symmetric(symmetric_part(gradient), strain);
+            return;
+        }
+        const double dt = evaluation_.time_step;
+        double* bond = state_ + pack * rows_ * pack_width;
+        const SymmetricTensor<Pack> stress =
+            where_active(lane_mask(active), rotated(load_symmetric(bond), step_rotation(gradient, dt)));
+        store_symmetric(stress, bond);
+        store_symmetric(stress, workspace_.rotated_stress.data() + pack * 6 * pack_width);
+        store_symmetric(symmetric_part(gradient) * Pack(dt), strain);
     }
-    return sums;
-}
 
-/// `total_stress` of one pack as a tensor.
-SymmetricTensor<Pack> total_stress(const StressWorkspace& workspace, std::size_t pack);
+    /// Calls the material if stresses are to be advanced.
+    MaterialStatus update();
+
+    struct Outcome {
+        SymmetricTensor<Pack> stress; ///< total, sigma' + S_r s 1; zero in inactive lanes [Pa]
+        Pack work;                    ///< `advance`: mean of old and new stress : D dt [J/m3], else stress : D [W/m3]
+        Pack dilation;                ///< `advance`: tr D dt [-], else 0
+    };
+    Outcome end(std::size_t pack) const
+    {
+        const PackMask active = lane_mask(workspace_.lanes[pack]);
+        const SymmetricTensor<Pack> strain = load_symmetric(workspace_.strain.data() + pack * 6 * pack_width);
+        Outcome outcome;
+        if (evaluation_.stress == StressUpdate::tangent) {
+            outcome.stress = where_active(active, elastic_stress<Pack>({}, strain, bulk_modulus_, shear_modulus_));
+            outcome.work = double_contraction(outcome.stress, strain);
+            outcome.dilation = 0.0;
+            return outcome;
+        }
+        SymmetricTensor<Pack> water;
+        if (wet_)
+            water = SymmetricTensor<Pack>::isotropic(load_pack(workspace_.suction.data() + pack * pack_width) *
+                                                     load_pack(workspace_.saturation.data() + pack * pack_width));
+        const SymmetricTensor<Pack> stress = load_symmetric(state_ + pack * rows_ * pack_width);
+        outcome.stress = where_active(active, stress + water);
+        if (evaluation_.stress == StressUpdate::keep) {
+            outcome.work = double_contraction(outcome.stress, strain);
+            outcome.dilation = 0.0;
+            return outcome;
+        }
+        const SymmetricTensor<Pack> before = load_symmetric(workspace_.rotated_stress.data() + pack * 6 * pack_width);
+        outcome.work = select(active, double_contraction(0.5 * (stress + before) + water, strain), Pack(0.0));
+        outcome.dilation = trace(strain);
+        return outcome;
+    }
+
+    std::uint8_t active(std::size_t pack) const { return workspace_.lanes[pack]; }
+
+private:
+    const Evaluation& evaluation_;
+    StressWorkspace& workspace_;
+    const Material& material_;
+    std::size_t packs_;
+    std::size_t rows_;
+    double* state_;
+    double bulk_modulus_;
+    double shear_modulus_;
+    bool wet_;
+};
 
 } // namespace periporo

@@ -26,6 +26,9 @@ struct Evaluation {
     StressUpdate stress = StressUpdate::advance;
     MaterialResponse response = MaterialResponse::full;
     double time_step = 0.0; ///< [s]
+
+    /// How far behind the positions lie those that velocity gradients refer to [s].
+    double gradient_lag() const { return stress == StressUpdate::advance ? 0.5 * time_step : 0.0; }
 };
 
 /// A material update that did not converge: where.
@@ -71,6 +74,9 @@ public:
     /// Shares of a point's bonds in its mean state: non-negative, 0 for inactive bonds, sum 1 unless all are
     /// inactive. `shares` has pack_width values a pack of the family. Records and activity must be current.
     virtual void shares(const Model& model, std::size_t point, std::span<double> shares) const = 0;
+
+    /// Does it sum over sub-horizons?
+    virtual bool uses_sub_horizons() const { return false; }
 
     /// Do (i,j) and (j,i) carry one state? Then what their ends differ in is met half-way.
     virtual bool symmetric_bonds() const { return false; }

@@ -47,28 +47,43 @@ PointKinematics point_kinematics(const Model& model, std::size_t point, const Fa
     return result;
 }
 
-/// Gives every bond the gradient of its point; all bonds of a sound point are active.
-void spread(const PointKinematics& point, const FamilyView& family, StressWorkspace& stress)
+Tensor<Pack> on_all_lanes(const Eigen::Matrix3d& m, const PackMask& active)
 {
-    for (std::size_t p = 0; p < family.packs; ++p) {
-        const std::size_t bonds = std::min(pack_width, family.count - p * pack_width);
-        const auto lanes = static_cast<std::uint8_t>((1u << bonds) - 1u);
-        stress.lanes[p] = point.sound ? lanes : std::uint8_t{0};
-        for (Eigen::Index c = 0; c < 9; ++c)
-            store_pack(select(lane_mask(stress.lanes[p]), Pack(point.gradient(c / 3, c % 3)), Pack(0.0)),
-                       stress.gradient.data() + (9 * p + static_cast<std::size_t>(c)) * pack_width);
-    }
+    const auto lanes = [&](Eigen::Index row, Eigen::Index column) {
+        return select(active, Pack(m(row, column)), Pack(0.0));
+    };
+    return {lanes(0, 0), lanes(0, 1), lanes(0, 2), lanes(1, 0), lanes(1, 1),
+            lanes(1, 2), lanes(2, 0), lanes(2, 1), lanes(2, 2)};
 }
 
-Eigen::Matrix3d mean_stress(const FamilyView& family, const StressWorkspace& stress)
+Eigen::Matrix3d matrix(const SymmetricTensor<Pack>& t)
 {
-    SymmetricTensor<Pack> sum;
-    for (std::size_t p = 0; p < family.packs; ++p)
-        sum += total_stress(stress, p);
-    Eigen::Matrix3d mean;
-    mean << reduce(sum.xx), reduce(sum.xy), reduce(sum.xz), reduce(sum.xy), reduce(sum.yy), reduce(sum.yz),
-        reduce(sum.xz), reduce(sum.yz), reduce(sum.zz);
-    return mean / static_cast<double>(std::max<std::size_t>(family.count, 1));
+    Eigen::Matrix3d m;
+    m << reduce(t.xx), reduce(t.xy), reduce(t.xz), reduce(t.xy), reduce(t.yy), reduce(t.yz), reduce(t.xz), reduce(t.yz),
+        reduce(t.zz);
+    return m;
+}
+
+/// The forces of T_ij = omega M zeta.
+void add_forces(const Model& model, std::size_t point, const FamilyView& family, const Influence& influence,
+                const Eigen::Matrix3d& moment, BondForces& forces)
+{
+    const NeighbourRecord& self = model.records[point];
+    std::array<Pack, 3> own{Pack(0.0), Pack(0.0), Pack(0.0)};
+    for (std::size_t p = 0; p < family.packs; ++p) {
+        std::array<Pack, 3> force{Pack(0.0), Pack(0.0), Pack(0.0)};
+        for (std::size_t lane = 0; lane < family.bonds_in(p); ++lane) {
+            const NeighbourRecord& other = model.records[family.neighbours[p * pack_width + lane]];
+            const Vector3 zeta = other.x() - self.x();
+            const Vector3 f = self.volume * other.volume * influence(zeta.squaredNorm()) * (moment * zeta);
+            for (std::size_t c = 0; c < 3; ++c)
+                force[c][lane] = f[static_cast<Eigen::Index>(c)];
+        }
+        for (std::size_t c = 0; c < 3; ++c)
+            own[c] += force[c];
+        forces.take_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
+    }
+    forces.give_to(point, own);
 }
 
 } // namespace
@@ -76,41 +91,48 @@ Eigen::Matrix3d mean_stress(const FamilyView& family, const StressWorkspace& str
 void PointCorrespondenceForceState::evaluate(Model& model, const Evaluation& evaluation) const
 {
     FirstFailure failure;
+    BondForces::prepare(model);
 #pragma omp parallel
     {
-        StressWorkspace stress;
-#pragma omp for schedule(dynamic, 32)
-        for (std::size_t i = 0; i < model.size(); ++i) {
-            const FamilyView family = model.families[i];
-            stress.reserve(family.packs);
-            const PointKinematics point = point_kinematics(model, i, family, influence());
-            spread(point, family, stress);
-            if (const MaterialStatus status = update_bond_stress(model, i, evaluation, stress); !status.converged)
-                failure.report(i, status);
+        StressWorkspace workspace;
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
+            BondForces forces(model, block);
+            for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
+                const FamilyView family = model.families[i];
+                const PointKinematics point = point_kinematics(model, i, family, influence());
+                BondStress stress(model, i, family.neighbours, family.packs,
+                                  model.bonds.state.data() + model.bonds.first[i], evaluation, workspace);
+                for (std::size_t p = 0; p < family.packs; ++p) {
+                    // all bonds of a sound point are active
+                    const std::uint8_t lanes = point.sound ? family.lanes(p) : std::uint8_t{0};
+                    const Tensor<Pack> gradient = on_all_lanes(point.gradient, lane_mask(lanes));
+                    stress.begin(p, at_mid_step(gradient, 2.0 * evaluation.gradient_lag()), lanes);
+                    model.bonds.active[family.first_pack + p] = lanes;
+                }
+                if (const MaterialStatus status = stress.update(); !status.converged)
+                    failure.report(i, status);
 
-            const double share = point.sound ? 1.0 / static_cast<double>(family.count) : 0.0;
-            const StepSums step =
-                step_sums(stress, family.packs, evaluation.stress, [&](std::size_t) { return Pack(share); });
-            model.stress_work[i] = model.points.volume[i] * step.work;
-            model.volume_rate[i] = step.dilation;
-            for (std::size_t p = 0; p < family.packs; ++p)
-                model.bonds.active[family.first_pack + p] = stress.lanes[p];
-            model.inactive_bonds[i] = point.sound ? 0 : static_cast<std::uint32_t>(family.count);
-            model.free_grain[i] = point.sound ? 0 : 1;
-
-            const Eigen::Matrix3d moment = mean_stress(family, stress) * point.inverse_shape;
-            double* force_state = model.bonds.force_state.data() + family.first_pack * 3 * pack_width;
-            for (std::size_t b = 0; b < family.count; ++b) {
-                const Vector3 zeta = model.records[family.neighbours[b]].x() - model.records[i].x();
-                const Vector3 t = influence()(zeta.squaredNorm()) * (moment * zeta);
-                for (std::size_t c = 0; c < 3; ++c)
-                    force_state[(b / pack_width * 3 + c) * pack_width + b % pack_width] =
-                        t[static_cast<Eigen::Index>(c)];
+                SymmetricTensor<Pack> sum;
+                Pack work = 0.0;
+                Pack dilation = 0.0;
+                for (std::size_t p = 0; p < family.packs; ++p) {
+                    const BondStress::Outcome bond = stress.end(p);
+                    sum += bond.stress;
+                    work += bond.work;
+                    dilation += bond.dilation;
+                }
+                const double share = point.sound ? 1.0 / static_cast<double>(family.count) : 0.0;
+                model.stress_work[i] = model.points.volume[i] * share * reduce(work);
+                model.volume_rate[i] = share * reduce(dilation);
+                model.inactive_bonds[i] = point.sound ? 0 : static_cast<std::uint32_t>(family.count);
+                model.free_grain[i] = point.sound ? 0 : 1;
+                add_forces(model, i, family, influence(), share * matrix(sum) * point.inverse_shape, forces);
             }
         }
     }
     failure.raise(model);
-    sum_bond_forces(model);
+    BondForces::hand_out(model);
 }
 
 void PointCorrespondenceForceState::shares(const Model& model, std::size_t point, std::span<double> shares) const

@@ -3,6 +3,8 @@
 //
 #include "operator/refresh.hpp"
 
+#include "time/ordered_sum.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -83,14 +85,13 @@ void allocate_bonds(Model& model)
     for (std::size_t i = 0; i < n; ++i)
         bonds.first[i + 1] = bonds.first[i] + model.families[i].packs * model.rows(i) * pack_width;
     bonds.state.resize(bonds.first[n]);
-    bonds.force_state.resize(model.families.packs() * 3 * pack_width);
     bonds.active.resize(model.families.packs());
     model.refresh_position = model.points.position;
 }
 
 void find_first_families(Model& model)
 {
-    model.families = Families::find(model.points, model.isometries, model.horizon);
+    model.find_families();
     allocate_bonds(model);
     std::fill(model.bonds.active.begin(), model.bonds.active.end(), std::uint8_t{0});
     for (std::size_t i = 0; i < model.size(); ++i)
@@ -163,8 +164,8 @@ void refresh_families(Model& model, const ForceState& force_state)
     std::vector<double> states = model.point_state;
     mean_point_states(model, force_state, states);
     model.point_state.swap(states);
-    const Families old_families =
-        std::exchange(model.families, Families::find(model.points, model.isometries, model.horizon));
+    const Families old_families = std::exchange(model.families, {});
+    model.find_families();
     BondData old_bonds = std::exchange(model.bonds, BondData{});
     allocate_bonds(model);
 #pragma omp parallel
@@ -208,13 +209,16 @@ void refresh_families(Model& model, const ForceState& force_state)
 double displacement_since_refresh(const Model& model)
 {
     const std::size_t n = model.size();
-    Vector3 mean = Vector3::Zero();
-    for (std::size_t i = 0; i < n; ++i)
-        mean += model.points.position[i] - model.refresh_position[i];
-    mean /= static_cast<double>(std::max<std::size_t>(n, 1));
+    const auto moved = [&](std::size_t i) { return Vector3(model.points.position[i] - model.refresh_position[i]); };
+    const std::array<double, 3> sum = ordered_sums<3>(n, [&](std::size_t i, std::array<double, 3>& sums) {
+        for (std::size_t c = 0; c < 3; ++c)
+            sums[c] += moved(i)[static_cast<Eigen::Index>(c)];
+    });
+    const Vector3 mean = Vector3(sum[0], sum[1], sum[2]) / static_cast<double>(std::max<std::size_t>(n, 1));
     double largest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : largest)
     for (std::size_t i = 0; i < n; ++i)
-        largest = std::max(largest, (model.points.position[i] - model.refresh_position[i] - mean).squaredNorm());
+        largest = std::max(largest, (moved(i) - mean).squaredNorm());
     return std::sqrt(largest);
 }
 

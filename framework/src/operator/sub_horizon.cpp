@@ -5,36 +5,43 @@
 
 #include "operator/bond_forces.hpp"
 #include "operator/bond_update.hpp"
-#include "operator/masked_sums.hpp"
+#include "operator/sub_horizon_sums.hpp"
 
 #include <algorithm>
 
 namespace periporo {
 namespace {
 
-constexpr std::size_t moment_features = 16; // omega V zeta zeta (6), omega V dv zeta (9), V
+/// A row of a member: omega V zeta (x) zeta as xx yy zz xy yz xz, then omega V (v_k - v_i) (x) zeta row by row, then V.
+constexpr std::size_t kinematic_values = 16;
+/// A row of a member: w_b sigma_b K_b^-1 row by row, its last component in the column.
+constexpr std::size_t moment_values = 8;
 
-/// Buffers of one thread for one point. Rows lie row_stride(packs) apart.
+/// Buffers of one thread for one point.
 struct Workspace {
-    AlignedVector<double> zeta;          // 3 rows
-    AlignedVector<double> omega;         // 1 row
-    AlignedVector<double> features;      // moment_features rows
-    AlignedVector<double> inverse_shape; // 6 per pack
-    AlignedVector<double> volume;        // 1 row: V(H_b), zero where inactive
-    AlignedVector<double> moments;       // 9 rows: w_b sigma_b K_b^-1
+    AlignedVector<double> zeta;          // 3 packs a pack of bonds
+    AlignedVector<double> omega;         // 1
+    AlignedVector<double> volume;        // 1: V of the neighbour, zero in lanes without a bond
+    AlignedVector<double> inverse_shape; // 6
+    AlignedVector<double> weight;        // 1: V(H_b), zero where inactive
+    BondRows<kinematic_values, false> features, sums;
+    BondRows<moment_values, true> moments, moment_sums;
     StressWorkspace stress;
 
     void reserve(std::size_t packs)
     {
-        const std::size_t row = row_stride(packs);
-        if (omega.size() < row) {
-            zeta.resize(3 * row);
-            omega.resize(row);
-            features.resize(moment_features * row);
-            inverse_shape.resize(6 * row);
-            volume.resize(row);
-            moments.resize(9 * row);
-        }
+        const std::size_t lanes = packs * pack_width;
+        if (!omega.empty() && omega.size() >= lanes)
+            return;
+        zeta.resize(3 * lanes);
+        omega.resize(lanes);
+        volume.resize(lanes);
+        inverse_shape.resize(6 * lanes);
+        weight.resize(lanes);
+        features.reserve(packs);
+        sums.reserve(packs);
+        moments.reserve(packs);
+        moment_sums.reserve(packs);
         stress.reserve(packs);
     }
 };
@@ -48,60 +55,56 @@ struct FamilySums {
 FamilySums gather(const Model& model, std::size_t point, const FamilyView& family, const Influence& influence,
                   Workspace& w)
 {
-    const std::size_t lanes = family.packs * pack_width;
-    const std::size_t row = row_stride(family.packs);
     const NeighbourRecord& self = model.records[point];
-    double* zeta = w.zeta.data();
-    double* velocity = w.features.data() + 6 * row; // three rows lent to the velocity differences until they are used
-    double* volume = w.features.data() + 15 * row;
-    FamilySums sums{self.volume, 0.0};
-    for (std::size_t b = 0; b < lanes; ++b) {
-        const NeighbourRecord& other = model.records[family.neighbours[b]];
-        for (std::size_t c = 0; c < 3; ++c) {
-            zeta[c * row + b] = other.position[c] - self.position[c];
-            velocity[c * row + b] = other.velocity[c] - self.velocity[c];
-        }
-        volume[b] = other.volume;
-    }
-    for (std::size_t b = 0; b < family.count; ++b)
-        sums.volume += volume[b];
-    for (std::size_t at = 0; at < lanes; at += pack_width) {
-        const Pack x = load_pack(zeta + at);
-        const Pack y = load_pack(zeta + row + at);
-        const Pack z = load_pack(zeta + 2 * row + at);
-        const Pack u = load_pack(velocity + at);
-        const Pack v = load_pack(velocity + row + at);
-        const Pack t = load_pack(velocity + 2 * row + at);
+    Pack volumes = 0.0;
+    Pack weights = 0.0;
+    for (std::size_t p = 0; p < family.packs; ++p) {
+        const std::size_t at = p * pack_width;
+        const std::uint32_t* neighbours = family.neighbours + at;
+        const std::array<Pack, 8> other =
+            load_transposed<8>([&](std::size_t lane) { return model.records[neighbours[lane]].position; });
+        const Pack x = other[0] - self.position[0];
+        const Pack y = other[1] - self.position[1];
+        const Pack z = other[2] - self.position[2];
+        const Pack u = other[4] - self.velocity[0];
+        const Pack v = other[5] - self.velocity[1];
+        const Pack t = other[6] - self.velocity[2];
+        const Pack volume = select(lane_mask(family.lanes(p)), other[3], Pack(0.0));
         const Pack omega = influence(x * x + y * y + z * z);
-        store_pack(omega, w.omega.data() + at);
-        const Pack weight = omega * load_pack(volume + at);
+        const Pack weight = omega * volume;
+        volumes += volume;
+        weights += weight;
+        store_pack(x, &w.zeta[3 * at]);
+        store_pack(y, &w.zeta[3 * at + pack_width]);
+        store_pack(z, &w.zeta[3 * at + 2 * pack_width]);
+        store_pack(omega, &w.omega[at]);
+        store_pack(volume, &w.volume[at]);
         const Pack wx = weight * x;
         const Pack wy = weight * y;
         const Pack wz = weight * z;
-        std::size_t f = 0;
-        for (const Pack& feature : {wx * x, wy * y, wz * z, wx * y, wy * z, wx * z, // xx yy zz xy yz xz
-                                    wx * u, wy * u, wz * u, wx * v, wy * v, wz * v, wx * t, wy * t, wz * t})
-            store_pack(feature, w.features.data() + row * f++ + at);
+        store_transposed<kinematic_values>({wx * x, wy * y, wz * z, wx * y, wy * z, wx * z, // xx yy zz xy yz xz
+                                            wx * u, wy * u, wz * u, wx * v, wy * v, wz * v, wx * t, wy * t, wz * t,
+                                            volume},
+                                           w.features.row(at));
     }
-    double weight = 0.0;
-    for (std::size_t b = 0; b < family.count; ++b)
-        weight += w.omega[b] * volume[b];
-    sums.mean_influence = family.count > 0 ? weight / (sums.volume - self.volume) : 0.0;
-    return sums;
+    const double volume = reduce(volumes);
+    return {self.volume + volume, volume > 0.0 ? reduce(weights) / volume : 0.0};
 }
 
-/// K_b^-1, L_b, V(H_b) and activity of every bond. Returns the sum of V(H_b) over active bonds.
+/// K_b^-1, L_b, V(H_b) and activity of every bond; L_b goes on to `stress`. Returns the sum of V(H_b) over active
+/// bonds.
 /// @param thickness least thickness squared [m2]
+/// @param lag see Evaluation::gradient_lag [s]
 double kinematics(const Model& model, std::size_t point, const FamilyView& family, const FamilySums& family_sums,
-                  double thickness, Workspace& w)
+                  double thickness, double lag, Workspace& w, BondStress& stress)
 {
-    const Pack self_volume = model.records[point].volume;
+    const double self_volume = model.records[point].volume;
     const Pack zero = 0.0;
     const double least = thickness * family_sums.mean_influence;
-    double total = 0.0;
+    Pack total = 0.0;
     for (std::size_t p = 0; p < family.packs; ++p) {
         const auto s =
-            masked_sums<moment_features>(family.membership, family.count, family.packs, p, w.features.data());
+            load_transposed<kinematic_values>([&](std::size_t lane) { return w.sums.row(p * pack_width + lane); });
         const SymmetricTensor<Pack> shape{s[0], s[1], s[2], s[3], s[4], s[5]};
         const Pack det = determinant(shape);
         const Pack volume = s[15] + self_volume;
@@ -113,124 +116,130 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
         for (Pack* c : {&inverse_shape.xx, &inverse_shape.yy, &inverse_shape.zz, &inverse_shape.xy, &inverse_shape.yz,
                         &inverse_shape.xz})
             *c = select(active, *c * scale, zero);
-        const Tensor<Pack> gradient =
-            Tensor<Pack>{s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]} * inverse_shape;
-
         store_symmetric(inverse_shape, w.inverse_shape.data() + p * 6 * pack_width);
-        double* stored_gradient = w.stress.gradient.data() + p * 9 * pack_width;
-        std::size_t c = 0;
-        for (const Pack* component : {&gradient.xx, &gradient.xy, &gradient.xz, &gradient.yx, &gradient.yy,
-                                      &gradient.yz, &gradient.zx, &gradient.zy, &gradient.zz})
-            store_pack(*component, stored_gradient + pack_width * c++);
-        w.stress.lanes[p] = lane_bits(active);
-        store_pack(select(active, volume, zero), w.volume.data() + p * pack_width);
+        const Pack weight = select(active, volume, zero);
+        store_pack(weight, w.weight.data() + p * pack_width);
+        total += weight;
+        // L (1 - lag L)^-1 with L = M K^-1 is M (K - lag M)^-1
+        const Tensor<Pack> moment{s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]};
+        const Adjugate<Pack> behind = adjugate(full(shape) + moment * Pack(-lag));
+        const Pack reciprocal = select(active, Pack(1.0) / behind.determinant, zero);
+        stress.begin(p, moment * behind.tensor * reciprocal, lane_bits(active));
     }
-    for (std::size_t b = 0; b < family.count; ++b)
-        total += w.volume[b];
-    return total;
+    return reduce(total);
 }
 
-SymmetricTensor<Pack> inverse_shape_of(const Workspace& w, std::size_t pack)
-{
-    return load_symmetric(w.inverse_shape.data() + pack * 6 * pack_width);
-}
-
-/// w_b sigma_b K_b^-1 of every bond, as nine rows.
-void stress_moments(const FamilyView& family, double reciprocal_total, Workspace& w)
-{
-    const std::size_t row = row_stride(family.packs);
-    for (std::size_t p = 0; p < family.packs; ++p) {
-        const Pack share = load_pack(w.volume.data() + p * pack_width) * reciprocal_total;
-        const Tensor<Pack> moment = full(total_stress(w.stress, p) * share) * inverse_shape_of(w, p);
-        std::size_t f = 0;
-        for (const Pack* c : {&moment.xx, &moment.xy, &moment.xz, &moment.yx, &moment.yy, &moment.yz, &moment.zx,
-                              &moment.zy, &moment.zz})
-            store_pack(*c, w.moments.data() + row * f++ + p * pack_width);
-    }
-}
-
-void store_force_state(const std::array<Pack, 9>& moment, const Workspace& w, std::size_t row, std::size_t pack,
-                       double* force_state)
+/// M zeta of a pack of bonds, times omega V_i V_j: the forces of the force state T = omega M zeta.
+std::array<Pack, 3> bond_force(const Tensor<Pack>& moment, const Workspace& w, std::size_t pack, double self_volume)
 {
     const std::size_t at = pack * pack_width;
     const Pack omega = load_pack(w.omega.data() + at);
-    const Pack x = load_pack(w.zeta.data() + at);
-    const Pack y = load_pack(w.zeta.data() + row + at);
-    const Pack z = load_pack(w.zeta.data() + 2 * row + at);
-    double* rows = force_state + pack * 3 * pack_width;
-    for (std::size_t c = 0; c < 3; ++c)
-        store_pack(omega * (moment[3 * c] * x + moment[3 * c + 1] * y + moment[3 * c + 2] * z), rows + c * pack_width);
+    const Pack weight = omega * load_pack(w.volume.data() + at) * self_volume;
+    const Pack x = load_pack(&w.zeta[3 * at]);
+    const Pack y = load_pack(&w.zeta[3 * at + pack_width]);
+    const Pack z = load_pack(&w.zeta[3 * at + 2 * pack_width]);
+    return {weight * (moment.xx * x + moment.xy * y + moment.xz * z),
+            weight * (moment.yx * x + moment.yy * y + moment.yz * z),
+            weight * (moment.zx * x + moment.zy * y + moment.zz * z)};
 }
+
+/// Sums over the bonds of a point.
+struct PointOutcome {
+    Pack work = 0.0;     ///< shares times BondStress::Outcome::work
+    Pack dilation = 0.0; ///< the same of the dilation
+    std::uint32_t active = 0;
+    std::array<Pack, 3> force{Pack(0.0), Pack(0.0), Pack(0.0)}; ///< of the bonds, V_i V_j T_ij [N]
+};
 
 } // namespace
 
 void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) const
 {
-    FirstFailure failure;
-    const std::size_t n = model.size();
+    const bool conjugate = weighting_ == Weighting::energy_conjugate;
     const double thickness = least_relative_thickness * influence().second_moment();
+    FirstFailure failure;
+    BondForces::prepare(model);
 #pragma omp parallel
     {
         Workspace w;
-#pragma omp for schedule(dynamic, 32)
-        for (std::size_t i = 0; i < n; ++i) {
-            const FamilyView family = model.families[i];
-            const std::size_t row = row_stride(family.packs);
-            w.reserve(family.packs);
-            const FamilySums sums = gather(model, i, family, influence(), w);
-            const double total = kinematics(model, i, family, sums, thickness, w);
-            const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;
-            const MaterialStatus status = update_bond_stress(model, i, evaluation, w.stress);
-            if (!status.converged)
-                failure.report(i, status);
+        OperatorSamples samples;
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
+            BondForces forces(model, block);
+            for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
+                SampledTimes times(samples, i);
+                const FamilyView family = model.families[i];
+                w.reserve(family.packs);
+                const FamilySums family_sums = gather(model, i, family, influence(), w);
+                sum_sub_horizons(model.sub_horizons[i], w.features, w.sums);
+                BondStress stress(model, i, family.neighbours, family.packs,
+                                  model.bonds.state.data() + model.bonds.first[i], evaluation, w.stress);
+                const double total =
+                    kinematics(model, i, family, family_sums, thickness, evaluation.gradient_lag(), w, stress);
+                const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;
+                times.end_of(&OperatorSamples::kinematics);
+                if (const MaterialStatus status = stress.update(); !status.converged)
+                    failure.report(i, status);
+                times.end_of(&OperatorSamples::material);
 
-            const StepSums step = step_sums(w.stress, family.packs, evaluation.stress, [&](std::size_t p) {
-                return load_pack(w.volume.data() + p * pack_width) * reciprocal_total;
-            });
-            model.stress_work[i] = model.points.volume[i] * step.work;
-            model.volume_rate[i] = step.dilation;
-            std::uint32_t active = 0;
-            for (std::size_t p = 0; p < family.packs; ++p) {
-                model.bonds.active[family.first_pack + p] = w.stress.lanes[p];
-                active += static_cast<std::uint32_t>(std::popcount(w.stress.lanes[p]));
-            }
-            model.inactive_bonds[i] = static_cast<std::uint32_t>(family.count) - active;
-            model.free_grain[i] = active == 0 ? 1 : 0;
-
-            double* force_state = model.bonds.force_state.data() + family.first_pack * 3 * pack_width;
-            if (weighting_ == Weighting::energy_conjugate) {
-                stress_moments(family, reciprocal_total, w);
-                for (std::size_t p = 0; p < family.packs; ++p)
-                    store_force_state(
-                        masked_sums<9>(family.membership, family.count, family.packs, p, w.moments.data()), w, row, p,
-                        force_state);
-            } else {
+                PointOutcome outcome;
                 for (std::size_t p = 0; p < family.packs; ++p) {
-                    const Pack phi = load_pack(w.volume.data() + p * pack_width) * (1.0 / sums.volume);
-                    const Tensor<Pack> m = full(total_stress(w.stress, p) * phi) * inverse_shape_of(w, p);
-                    store_force_state({m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz}, w, row, p, force_state);
+                    const BondStress::Outcome bond = stress.end(p);
+                    const Pack weight = load_pack(w.weight.data() + p * pack_width);
+                    const Pack share = weight * reciprocal_total;
+                    outcome.work += share * bond.work;
+                    outcome.dilation += share * bond.dilation;
+                    outcome.active += static_cast<std::uint32_t>(std::popcount(stress.active(p)));
+                    model.bonds.active[family.first_pack + p] = stress.active(p);
+                    const Pack factor = conjugate ? share : weight * (1.0 / family_sums.volume);
+                    const Tensor<Pack> m =
+                        full(bond.stress * factor) * load_symmetric(w.inverse_shape.data() + p * 6 * pack_width);
+                    store_transposed<moment_values>({m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy},
+                                                    w.moments.row(p * pack_width));
+                    store_pack(m.zz, w.moments.column.data() + p * pack_width);
                 }
+                model.stress_work[i] = model.points.volume[i] * reduce(outcome.work);
+                model.volume_rate[i] = reduce(outcome.dilation);
+                model.inactive_bonds[i] = static_cast<std::uint32_t>(family.count) - outcome.active;
+                model.free_grain[i] = outcome.active == 0 ? 1 : 0;
+
+                if (conjugate)
+                    sum_sub_horizons(model.sub_horizons[i], w.moments, w.moment_sums);
+                const BondRows<moment_values, true>& moments = conjugate ? w.moment_sums : w.moments;
+                for (std::size_t p = 0; p < family.packs; ++p) {
+                    const auto m = load_transposed<moment_values>(
+                        [&](std::size_t lane) { return moments.row(p * pack_width + lane); });
+                    const std::array<Pack, 3> force = bond_force({m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7],
+                                                                  load_pack(moments.column.data() + p * pack_width)},
+                                                                 w, p, model.records[i].volume);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        outcome.force[c] += force[c];
+                    forces.take_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
+                }
+                forces.give_to(i, outcome.force);
+                times.end_of(&OperatorSamples::force);
             }
         }
+#pragma omp critical(periporo_operator_samples)
+        model.operator_samples += samples;
     }
     failure.raise(model);
-    sum_bond_forces(model);
+    BondForces::hand_out(model);
 }
 
 void SubHorizonForceState::shares(const Model& model, std::size_t point, std::span<double> shares) const
 {
     const FamilyView family = model.families[point];
-    thread_local AlignedVector<double> volume;
-    volume.resize(row_stride(family.packs));
-    for (std::size_t b = 0; b < family.packs * pack_width; ++b)
-        volume[b] = model.records[family.neighbours[b]].volume;
+    thread_local BondRows<pack_width, false> volume, sums;
+    volume.reserve(family.packs);
+    sums.reserve(family.packs);
+    for (std::size_t b = 0; b < family.count; ++b)
+        std::fill_n(volume.row(b), pack_width, model.records[family.neighbours[b]].volume);
+    sum_sub_horizons(model.sub_horizons[point], volume, sums);
     double total = 0.0;
-    for (std::size_t p = 0; p < family.packs; ++p) {
-        const auto sum = masked_sums<1>(family.membership, family.count, family.packs, p, volume.data());
-        const Pack share = select(lane_mask(model.bonds.active[family.first_pack + p]),
-                                  sum[0] + model.records[point].volume, Pack(0.0));
-        for (std::size_t lane = 0; lane < pack_width; ++lane)
-            total += shares[p * pack_width + lane] = share[lane];
+    for (std::size_t b = 0; b < shares.size(); ++b) {
+        const bool active = (model.bonds.active[family.first_pack + b / pack_width] >> b % pack_width & 1u) != 0;
+        total += shares[b] = active ? *sums.row(b) + model.records[point].volume : 0.0;
     }
     if (total > 0.0)
         for (double& share : shares)

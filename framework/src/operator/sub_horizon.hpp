@@ -27,6 +27,7 @@ public:
 
     void evaluate(Model& model, const Evaluation& evaluation) const override;
     void shares(const Model& model, std::size_t point, std::span<double> shares) const override;
+    bool uses_sub_horizons() const override { return true; }
 
 private:
     Weighting weighting_;

@@ -76,7 +76,8 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         const std::size_t i = points.size();
         points.resize(i + 1);
         points.position[i] = points.initial_position[i] = cloud.positions[p];
-        points.velocity[i] = body.velocity + body.angular_velocity.cross(cloud.positions[p] - centre);
+        const Vector3 from_centre = cloud.positions[p] - centre;
+        points.velocity[i] = body.velocity + body.angular_velocity.cross(from_centre) + body.strain_rate * from_centre;
         points.volume[i] = points.initial_volume[i] = cloud.volumes[p];
         points.mass[i] = density * cloud.volumes[p];
         points.suction[i] = body.suction;
@@ -241,7 +242,7 @@ void initialize_materials(Model& model, const ForceState& force_state)
     for (std::size_t i = 0; i < model.size(); ++i) {
         const FamilyView family = model.families[i];
         workspace.reserve(family.packs);
-        gather_water(model, i, workspace);
+        gather_water(model, i, family.neighbours, family.packs, workspace);
         MaterialBatch batch;
         batch.packs = family.packs;
         batch.bonds = model.bonds.state.data() + model.bonds.first[i];

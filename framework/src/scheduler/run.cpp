@@ -57,9 +57,10 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     BuiltModel built = build_model(description, registry);
     Model& model = built.model;
     model.isometries.set_generators(image_generators(description, description.stages.front()));
-    find_first_families(model);
     const auto force_state = make_force_state(description.operators.force_state,
                                               Influence::by_name(description.operators.influence, model.horizon));
+    model.needs_sub_horizons = force_state->uses_sub_horizons();
+    find_first_families(model);
     FrequencyEstimate frequency;
     const StableStep stable = stable_step(model, *force_state, ContactForces(std::move(built.contacts)), frequency, 40,
                                           description.time.safety, true);

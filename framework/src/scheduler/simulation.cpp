@@ -48,6 +48,7 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
 {
     BuiltModel built = build_model(description, registry);
     model_ = std::move(built.model);
+    model_.needs_sub_horizons = force_state_->uses_sub_horizons();
     contact_ = ContactForces(std::move(built.contacts));
     for (const std::string& remark : built.remarks)
         log_->info(remark);
@@ -198,7 +199,7 @@ void Simulation::renew_step(int iterations)
 void Simulation::take_step(const StepOptions& options)
 {
     if (at_.stage_step > 0 && at_.stage_step % steps_per_estimate == 0)
-        renew_step(later_iterations);
+        dynamics_.times().time(Phase::step_estimate, [&] { renew_step(later_iterations); });
     StepOptions with_step = options;
     with_step.time_step = at_.time_step;
     dynamics_.step(with_step);
@@ -240,7 +241,8 @@ bool Simulation::dynamic(const StageDescription& stage)
     while (at_.time < end) {
         take_step({});
         at_.time += at_.time_step;
-        outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name);
+        dynamics_.times().time(Phase::output,
+                               [&] { outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name); });
         progress_.update([&] { return stage_line((at_.time - at_.stage_start) / stage.duration); });
         // What starts from rest comes to rest only after it has moved.
         at_.moved = at_.moved || (stage.rest_speed && dynamics_.mean_speed() > 2.0 * *stage.rest_speed);
@@ -290,7 +292,7 @@ bool Simulation::stop_here()
 {
     const auto now = std::chrono::steady_clock::now();
     if (now - last_checkpoint_ > std::chrono::duration<double>(description_.checkpoint_every))
-        checkpoint();
+        dynamics_.times().time(Phase::output, [&] { checkpoint(); });
     return interruption_.requested();
 }
 

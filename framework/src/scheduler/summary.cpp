@@ -26,12 +26,17 @@ nlohmann::json summary_of(const CaseDescription& description, const Model& model
         the_case["comparison"] = {{"law", description.comparison->law},
                                   {"radius", description.comparison->radius},
                                   {"height", description.comparison->height}};
+    nlohmann::json phases;
+    for (std::size_t p = 0; p < phase_count; ++p)
+        phases[phase_names[p]] = dynamics.times()[static_cast<Phase>(p)];
     const EnergyLedger& ledger = dynamics.ledger();
     return {{"format", "periporo summary"},
             {"case", the_case},
             {"points", model.size()},
             {"bonds", model.families.bonds()},
             {"refreshes", dynamics.refreshes()},
+            {"bytes_per_point", static_cast<double>(model.memory()) / static_cast<double>(model.size())},
+            {"phase_seconds", phases},
             {"energy",
              {{"unit", "J"},
               {"kinetic", ledger.kinetic},

@@ -4,6 +4,7 @@
 #include "time/dynamics.hpp"
 
 #include "operator/refresh.hpp"
+#include "time/ordered_sum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,10 @@ Dynamics::Dynamics(Model& model, const ForceState& force_state, ContactForces& c
 
 void Dynamics::refresh()
 {
-    refresh_families(model_, force_state_);
-    contact_.find_candidates(model_, settings_.skin);
+    times_.time(Phase::refresh, [&] {
+        refresh_families(model_, force_state_);
+        contact_.find_candidates(model_, settings_.skin);
+    });
     ++state_.refreshes;
 }
 
@@ -35,45 +38,75 @@ void Dynamics::start()
 
 void Dynamics::step(const StepOptions& options)
 {
-    Points& points = model_.points;
-    const std::size_t n = points.size();
-    const double dt = options.time_step;
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < n; ++i) {
-        points.velocity[i] += 0.5 * dt / points.mass[i] * points.force[i];
-        points.position[i] += dt * points.velocity[i];
-    }
-    if (settings_.refresh_always || 2.0 * displacement_since_refresh(model_) > settings_.skin)
+    bool refresh_due = settings_.refresh_always;
+    times_.time(Phase::integration, [&] {
+        drift(options.time_step);
+        refresh_due = refresh_due || 2.0 * displacement_since_refresh(model_) > settings_.skin;
+        if (!refresh_due)
+            model_.update_records();
+    });
+    if (refresh_due)
         refresh();
-    else
-        model_.update_records();
-    force_state_.evaluate(model_, {StressUpdate::advance, options.response, dt});
-    sum_forces(options);
+    times_.time_operator(model_, [&] {
+        force_state_.evaluate(model_, {StressUpdate::advance, options.response, options.time_step});
+    });
+    times_.time(Phase::contact, [&] { sum_forces(options); });
+    times_.time(Phase::integration, [&] {
+        kick(options.time_step);
+        update_ledger(options.time_step);
+    });
+}
+
+void Dynamics::drift(double time_step)
+{
+    Points& points = model_.points;
 #pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < n; ++i) {
-        points.velocity[i] += 0.5 * dt / points.mass[i] * points.force[i];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points.velocity[i] += 0.5 * time_step / points.mass[i] * points.force[i];
+        points.position[i] += time_step * points.velocity[i];
+    }
+}
+
+void Dynamics::kick(double time_step)
+{
+    Points& points = model_.points;
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points.velocity[i] += 0.5 * time_step / points.mass[i] * points.force[i];
         const double dilation = model_.volume_rate[i];
         points.jacobian[i] *= (1.0 + 0.5 * dilation) / (1.0 - 0.5 * dilation);
         points.volume[i] = points.initial_volume[i] * std::min(points.jacobian[i], largest_volume_ratio);
     }
+}
+
+void Dynamics::update_ledger(double time_step)
+{
+    const Points& points = model_.points;
+    const auto [kinetic, gravity, lent, stress, friction, collision] =
+        ordered_sums<6>(points.size(), [&](std::size_t i, std::array<double, 6>& sum) {
+            sum[0] += 0.5 * points.mass[i] * points.velocity[i].squaredNorm();
+            sum[1] -= points.mass[i] * model_.gravity.dot(points.position[i]);
+            sum[2] += points.force[i].squaredNorm() / points.mass[i];
+            sum[3] += model_.stress_work[i];
+            sum[4] += contact_.friction()[i].dot(points.velocity[i]);
+            sum[5] += contact_.damping()[i].dot(points.velocity[i]);
+        });
     EnergyLedger& ledger = state_.ledger;
-    ledger.kinetic = kinetic_energy();
-    ledger.gravity = gravity_energy() - state_.gravity_datum;
+    ledger.kinetic = kinetic;
+    ledger.gravity = gravity - state_.gravity_datum;
     ledger.contact = contact_.energy();
-    const double last_lent = state_.force_squared_per_mass;
-    state_.force_squared_per_mass = force_squared_per_mass();
-    ledger.verlet -= 0.125 * dt * dt * (state_.force_squared_per_mass - last_lent);
-    for (std::size_t i = 0; i < n; ++i) {
-        ledger.stress_work += model_.stress_work[i];
-        ledger.friction -= dt * contact_.friction()[i].dot(points.velocity[i]);
-        ledger.collision -= dt * contact_.damping()[i].dot(points.velocity[i]);
-    }
+    ledger.verlet -= 0.125 * time_step * time_step * (lent - state_.force_squared_per_mass);
+    state_.force_squared_per_mass = lent;
+    ledger.stress_work += stress;
+    ledger.friction -= time_step * friction;
+    ledger.collision -= time_step * collision;
 }
 
 void Dynamics::sum_forces(const StepOptions& options)
 {
     Points& points = model_.points;
     const std::size_t n = points.size();
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < n; ++i)
         points.force[i] = model_.internal_force[i] + points.mass[i] * model_.gravity;
     using Approach = ContactForces::Approach;
@@ -81,15 +114,15 @@ void Dynamics::sum_forces(const StepOptions& options)
                            points.force);
     contact_.add_surface_friction(model_, options.time_step, points.force);
     apply_held(points.force);
-    double unbalanced = 0.0;
-    double weight = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-        unbalanced += points.force[i].squaredNorm();
-        weight += points.mass[i] * points.mass[i] * model_.gravity.squaredNorm();
-    }
+    const double squared_gravity = model_.gravity.squaredNorm();
+    const auto [unbalanced, weight] = ordered_sums<2>(n, [&](std::size_t i, std::array<double, 2>& sum) {
+        sum[0] += points.force[i].squaredNorm();
+        sum[1] += points.mass[i] * points.mass[i] * squared_gravity;
+    });
     state_.force_scale = weight > 0.0 ? std::sqrt(weight) : std::max(state_.force_scale, std::sqrt(unbalanced));
     state_.residual = state_.force_scale > 0.0 ? std::sqrt(unbalanced) / state_.force_scale : 0.0;
     if (options.local_damping > 0.0) {
+#pragma omp parallel for schedule(static)
         for (std::size_t i = 0; i < n; ++i)
             for (Eigen::Index c = 0; c < 3; ++c) {
                 const double v = points.velocity[i][c];
@@ -102,10 +135,9 @@ void Dynamics::sum_forces(const StepOptions& options)
 
 double Dynamics::force_squared_per_mass() const
 {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < model_.size(); ++i)
-        sum += model_.points.force[i].squaredNorm() / model_.points.mass[i];
-    return sum;
+    return ordered_sums<1>(model_.size(), [&](std::size_t i, std::array<double, 1>& sum) {
+        sum[0] += model_.points.force[i].squaredNorm() / model_.points.mass[i];
+    })[0];
 }
 
 void Dynamics::apply_held(std::vector<Vector3>& vectors) const
@@ -126,18 +158,16 @@ void Dynamics::open_ledger()
 
 double Dynamics::kinetic_energy() const
 {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < model_.size(); ++i)
-        sum += 0.5 * model_.points.mass[i] * model_.points.velocity[i].squaredNorm();
-    return sum;
+    return ordered_sums<1>(model_.size(), [&](std::size_t i, std::array<double, 1>& sum) {
+        sum[0] += 0.5 * model_.points.mass[i] * model_.points.velocity[i].squaredNorm();
+    })[0];
 }
 
 double Dynamics::gravity_energy() const
 {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < model_.size(); ++i)
-        sum -= model_.points.mass[i] * model_.gravity.dot(model_.points.position[i]);
-    return sum;
+    return ordered_sums<1>(model_.size(), [&](std::size_t i, std::array<double, 1>& sum) {
+        sum[0] -= model_.points.mass[i] * model_.gravity.dot(model_.points.position[i]);
+    })[0];
 }
 
 double Dynamics::acceleration_scale() const

@@ -8,6 +8,7 @@
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
 #include "time/energy_ledger.hpp"
+#include "time/phases.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -73,8 +74,17 @@ public:
     double mean_speed() const;
     std::uint64_t refreshes() const { return state_.refreshes; }
 
+    /// Where the time of step() and refresh() went; others may add theirs.
+    PhaseTimes& times() { return times_; }
+    const PhaseTimes& times() const { return times_; }
+
 private:
+    /// First half kick and motion of the points.
+    void drift(double time_step);
     void sum_forces(const StepOptions& options);
+    /// Second half kick and volumes.
+    void kick(double time_step);
+    void update_ledger(double time_step);
     void apply_held(std::vector<Vector3>& vectors) const;
     double force_squared_per_mass() const;
     double kinetic_energy() const;
@@ -86,6 +96,7 @@ private:
     DynamicsSettings settings_;
     std::vector<HeldDirection> held_;
     State state_;
+    PhaseTimes times_;
 };
 
 } // namespace periporo

@@ -156,6 +156,7 @@ suction = "20 kPa"
 saturation = 0.3
 velocity = [0, "1 mm/s", 0]
 angular_velocity = [0, 0, "2 rad/s"]
+strain_rate = ["1 s^-1", "2 s^-1", "-3 s^-1", "4 s^-1", 0, "5 ms^-1"]
 initial_stress = { type = "geostatic", K0 = 0.53, overconsolidation_ratio = 1.25 }
 [body.bubble]
 geometry = { generator = "test_shell", inner = "1 mm", outer = "2 mm" }

@@ -114,6 +114,9 @@ TEST_CASE("a body knows geometry, material, water, velocity and initial stress")
     CHECK(body.saturation == 0.3);
     CHECK(body.velocity == Vector3(0.0, 0.001, 0.0));
     CHECK(body.angular_velocity == Vector3(0.0, 0.0, 2.0));
+    CHECK(body.strain_rate.row(0) == Eigen::RowVector3d(1.0, 4.0, 5000.0));
+    CHECK(body.strain_rate.row(1) == Eigen::RowVector3d(4.0, 2.0, 0.0));
+    CHECK(body.strain_rate.row(2) == Eigen::RowVector3d(5000.0, 0.0, -3.0));
     CHECK(body.initial_stress.type == "geostatic");
     CHECK(body.initial_stress.lateral_coefficient == 0.53);
     CHECK(body.initial_stress.overconsolidation_ratio == 1.25);

@@ -45,6 +45,7 @@ void check_same(const CaseDescription& a, const CaseDescription& b)
         CHECK(a.bodies[i].saturation == b.bodies[i].saturation);
         CHECK(a.bodies[i].velocity == b.bodies[i].velocity);
         CHECK(a.bodies[i].angular_velocity == b.bodies[i].angular_velocity);
+        CHECK(a.bodies[i].strain_rate == b.bodies[i].strain_rate);
         CHECK(a.bodies[i].initial_stress.type == b.bodies[i].initial_stress.type);
         CHECK(a.bodies[i].initial_stress.lateral_coefficient == b.bodies[i].initial_stress.lateral_coefficient);
         CHECK(a.bodies[i].initial_stress.overconsolidation_ratio == b.bodies[i].initial_stress.overconsolidation_ratio);

@@ -61,6 +61,19 @@ TEST_CASE("a spinning body has v = v0 + omega x (x - centre of mass)")
     }
 }
 
+TEST_CASE("a deforming body has v = D (x - centre of mass)")
+{
+    const BuiltModel model =
+        built(quickstart({"body.column.strain_rate=[\"1 s^-1\", 0, \"-2 s^-1\", \"0.5 s^-1\", 0, \"3 s^-1\"]"}));
+    Eigen::Matrix3d rate;
+    rate << 1.0, 0.5, 3.0, 0.5, 0.0, 0.0, 3.0, 0.0, -2.0;
+    const Points& points = model.model.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vector3 expected = rate * (points.position[i] - Vector3(0.05, 0.05, 0.06));
+        REQUIRE((points.velocity[i] - expected).norm() < 1e-14); // round-off of 0.3 m/s
+    }
+}
+
 TEST_CASE("a body behind a symmetry plane is cut, and the remark says so")
 {
     const BuiltModel model = built(quickstart({"body.column.geometry.size=[\"200 mm\", \"100 mm\", \"120 mm\"]",

@@ -41,8 +41,11 @@ struct BlockInHighestMode {
         find_first_families(model);
         FrequencyEstimate estimate;
         omega = estimate.update(model, *force, 40);
+        double largest = 0.0;
+        for (const Vector3& value : estimate.mode())
+            largest = std::max(largest, value.norm());
         for (std::size_t i = 0; i < model.size(); ++i)
-            model.points.velocity[i] = 1e-9 * estimate.mode()[i] / (estimate.mode()[0].norm() + 1e-30);
+            model.points.velocity[i] = 1e-9 * estimate.mode()[i] / largest;
         dynamics.start();
         dynamics.open_ledger();
     }
@@ -110,7 +113,7 @@ TEST_CASE("a block in its highest mode settles under local damping at the step t
         const double first = block.dynamics.mean_speed();
         for (int step = 0; step < 60; ++step)
             block.dynamics.step({factor * local_damping_factor(0.8) * 2.0 / block.omega, MaterialResponse::full, 0.8});
-        return block.dynamics.mean_speed() > first;
+        return !(block.dynamics.mean_speed() <= first); // beyond the limit it soon is no number
     };
     CHECK_FALSE(grows(0.95));
     CHECK(grows(1.1));

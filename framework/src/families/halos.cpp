@@ -1,0 +1,73 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "families/halos.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace periporo {
+
+Halos Halos::find(const Families& families)
+{
+    const std::size_t n = families.points();
+    const std::size_t blocks = (n + block_size - 1) / block_size;
+    Halos halos;
+    halos.place_of_.assign(families.packs() * pack_width, 0);
+    halos.first_arrival_.assign(n + 1, 0);
+    std::vector<std::vector<std::uint32_t>> at_place(blocks); // points and images
+#pragma omp parallel
+    {
+        constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+        std::vector<std::uint32_t> place(n + families.images().size(), none);
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < blocks; ++block) {
+            std::vector<std::uint32_t>& places = at_place[block];
+            const auto first = static_cast<std::uint32_t>(halos.first_point(block));
+            const auto end = static_cast<std::uint32_t>(halos.end_point(block));
+            for (std::uint32_t i = first; i < end; ++i) {
+                place[i] = i - first;
+                places.push_back(i);
+            }
+            for (std::uint32_t i = first; i < end; ++i) {
+                const FamilyView family = families[i];
+                std::uint16_t* place_of = halos.place_of_.data() + family.first_pack * pack_width;
+                for (std::size_t b = 0; b < family.count; ++b) {
+                    std::uint32_t& at = place[family.neighbours[b]];
+                    if (at == none) {
+                        at = static_cast<std::uint32_t>(places.size());
+                        places.push_back(family.neighbours[b]);
+                    }
+                    place_of[b] = static_cast<std::uint16_t>(at);
+                }
+            }
+            for (const std::uint32_t j : places)
+                place[j] = none;
+        }
+    }
+    halos.first_place_.assign(blocks + 1, 0);
+    for (std::size_t block = 0; block < blocks; ++block)
+        halos.first_place_[block + 1] = halos.first_place_[block] + at_place[block].size();
+    for (const std::vector<std::uint32_t>& places : at_place)
+        for (const std::uint32_t j : places)
+            ++halos.first_arrival_[families.parent(j) + 1];
+    std::partial_sum(halos.first_arrival_.begin(), halos.first_arrival_.end(), halos.first_arrival_.begin());
+    halos.arrivals_.resize(halos.first_arrival_[n]);
+    std::vector<std::size_t> next(halos.first_arrival_.begin(), halos.first_arrival_.end() - 1);
+    for (std::size_t block = 0; block < blocks; ++block)
+        for (std::size_t p = 0; p < at_place[block].size(); ++p) {
+            const std::uint32_t j = at_place[block][p];
+            halos.arrivals_[next[families.parent(j)]++] = {static_cast<std::uint32_t>(halos.first_place_[block] + p),
+                                                           families.isometry(j)};
+        }
+    return halos;
+}
+
+std::size_t Halos::memory() const
+{
+    return (first_place_.capacity() + first_arrival_.capacity()) * sizeof(std::size_t) +
+           place_of_.capacity() * sizeof(std::uint16_t) + arrivals_.capacity() * sizeof(Arrival);
+}
+
+} // namespace periporo

@@ -1,0 +1,228 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "families/sub_horizons.hpp"
+
+#include "periporo/pack.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace periporo {
+namespace {
+
+constexpr std::size_t chunk = 64;
+/// Earlier bonds that a sub-horizon may follow from. Points lie along a space-filling curve, so that near neighbours
+/// are found among the last; looking at all of them would save 3 per cent of the pairs.
+constexpr std::size_t window = 32;
+constexpr std::size_t word_bits = 64;
+
+/// The numbers of the bits that are set in a byte.
+constexpr auto bits_of_byte = [] {
+    std::array<std::array<std::uint8_t, 8>, 256> table{};
+    for (std::size_t byte = 0; byte < 256; ++byte)
+        for (std::uint8_t bit = 0, at = 0; bit < 8; ++bit)
+            if (byte >> bit & 1u)
+                table[byte][at++] = bit;
+    return table;
+}();
+constexpr std::size_t slack = 8;
+
+/// Membership of one family as bits. Row k, bit b: are the neighbours of bonds k and b within the horizon of each
+/// other? Words of all rows lie word by word, so that rows are compared side by side.
+class Membership {
+public:
+    void find(const Points& points, const IsometryTable& isometries, const Families& families, std::size_t point,
+              double horizon)
+    {
+        const FamilyView family = families[point];
+        count_ = family.count;
+        words_ = (count_ + word_bits - 1) / word_bits;
+        const std::size_t lanes = family.packs * pack_width;
+        for (auto& component : zeta_)
+            component.resize(lanes);
+        for (std::size_t b = 0; b < lanes; ++b) {
+            // Lanes without a bond stand far away from everything.
+            Vector3 x = Vector3::Constant(1e3 * horizon * static_cast<double>(b + 2));
+            if (b < count_) {
+                const std::uint32_t c = family.neighbours[b];
+                x = isometries[families.isometry(c)].point(points.position[families.parent(c)]) -
+                    points.position[point];
+            }
+            for (int c = 0; c < 3; ++c)
+                zeta_[c][b] = x[c];
+        }
+        bits_.assign(words_ * count_, 0);
+        const Pack reach_squared = horizon * horizon;
+        for (std::size_t p = 0; p < family.packs; ++p) {
+            const std::size_t at = p * pack_width;
+            Pack x[3];
+            for (std::size_t c = 0; c < 3; ++c)
+                x[c] = Pack(zeta_[c].data() + at, std::experimental::vector_aligned);
+            std::uint64_t* column = bits_.data() + at / word_bits * count_;
+            for (std::size_t k = 0; k < count_; ++k) {
+                const Pack dx = x[0] - zeta_[0][k];
+                const Pack dy = x[1] - zeta_[1][k];
+                const Pack dz = x[2] - zeta_[2][k];
+                column[k] |= static_cast<std::uint64_t>(lane_bits(dx * dx + dy * dy + dz * dz <= reach_squared))
+                             << at % word_bits;
+            }
+        }
+    }
+
+    std::size_t count() const { return count_; }
+
+    /// The cheapest way to the sum over the sub-horizon of bond b.
+    SubHorizonView::Step step(std::size_t b) const
+    {
+        std::uint32_t members = 0;
+        for (std::size_t w = 0; w < words_; ++w)
+            members += static_cast<std::uint32_t>(std::popcount(word(w, b)));
+        const auto all = static_cast<std::uint32_t>(count_);
+        const bool from_all = all - members < members;
+        const std::uint64_t best = from_all ? all - members : members;
+        const std::uint64_t from = from_all ? count_ + 1 : count_;
+
+        const std::size_t first = b > window ? b - window : 0;
+        std::uint64_t enter[window] = {}, leave[window] = {}; // as wide as the words, so that one loop is one vector
+        for (std::size_t w = 0; w < words_; ++w) {
+            const std::uint64_t own = word(w, b);
+            const std::uint64_t* earlier = bits_.data() + w * count_ + first;
+#pragma GCC ivdep
+            for (std::size_t a = 0; a < b - first; ++a) {
+                enter[a] += static_cast<std::uint64_t>(std::popcount(own & ~earlier[a]));
+                leave[a] += static_cast<std::uint64_t>(std::popcount(earlier[a] & ~own));
+            }
+        }
+        std::uint64_t cheapest = best << 16 | from; // pairs above, where from below
+        for (std::size_t a = 0; a < window; ++a)
+            cheapest = std::min(cheapest, a < b - first ? std::max(enter[a], leave[a]) << 16 | (first + a) : cheapest);
+        return {static_cast<std::uint16_t>(cheapest), static_cast<std::uint16_t>(cheapest >> 16)};
+    }
+
+    /// Writes the members of a step and returns the place behind the last. Touches `slack` places behind that.
+    template <class Member>
+    Member* write_members(std::size_t b, SubHorizonView::Step step, Member* members) const
+    {
+        Member* enter = members;
+        Member* leave = members + step.pairs;
+        Member* end = leave + step.pairs;
+        for (std::size_t w = 0; w < words_; ++w)
+            enter = write_bits(word(w, b) & ~before(w, step), w * word_bits, enter);
+        std::fill(enter, std::max(enter, leave), static_cast<Member>(count_));
+        for (std::size_t w = 0; w < words_; ++w)
+            leave = write_bits(before(w, step) & ~word(w, b), w * word_bits, leave);
+        std::fill(leave, std::max(leave, end), static_cast<Member>(count_));
+        return end;
+    }
+
+private:
+    std::uint64_t word(std::size_t w, std::size_t row) const
+    {
+        return bits_[w * count_ + row];
+    }
+    std::uint64_t full(std::size_t w) const
+    {
+        const std::size_t bits = std::min(word_bits, count_ - w * word_bits);
+        return ~std::uint64_t{0} >> (word_bits - bits);
+    }
+
+    std::uint64_t before(std::size_t w, SubHorizonView::Step step) const
+    {
+        return step.from < count_ ? word(w, step.from) : step.from == count_ ? 0 : full(w);
+    }
+
+    /// Writes the numbers of the set bits of a word, eight places at a time, and returns the place behind the last.
+    template <class Member>
+    static Member* write_bits(std::uint64_t bits, std::size_t base, Member* out)
+    {
+        for (std::size_t byte = 0; byte < 8; ++byte, bits >>= 8) {
+            const std::array<std::uint8_t, 8>& set = bits_of_byte[bits & 0xff];
+            if constexpr (sizeof(Member) == 1) { // eight additions in one, none of them carries
+                const std::uint64_t places = std::bit_cast<std::uint64_t>(set) +
+                                             0x0101010101010101u * static_cast<std::uint64_t>(base + 8 * byte);
+                std::memcpy(out, &places, sizeof(places));
+            } else {
+                for (std::size_t n = 0; n < 8; ++n)
+                    out[n] = static_cast<Member>(base + 8 * byte + set[n]);
+            }
+            out += std::popcount(bits & 0xff);
+        }
+        return out;
+    }
+
+    std::size_t count_ = 0;
+    std::size_t words_ = 0;
+    AlignedVector<double> zeta_[3];
+    std::vector<std::uint64_t> bits_;
+};
+
+} // namespace
+
+SubHorizons SubHorizons::find(const Points& points, const IsometryTable& isometries, const Families& families,
+                              double horizon)
+{
+    const std::size_t n = families.points();
+    SubHorizons result;
+    result.first_step_.assign(n + 1, 0);
+    result.first_byte_.assign(n, 0);
+    for (std::size_t i = 0; i < n; ++i)
+        result.first_step_[i + 1] = result.first_step_[i] + families[i].count;
+    result.steps_.resize(result.first_step_[n]);
+    // Members of a block of points go to a buffer of the block; the buffers are joined in order.
+    const std::size_t blocks = (n + chunk - 1) / chunk;
+    std::vector<std::vector<std::uint8_t>> found(blocks);
+#pragma omp parallel
+    {
+        Membership membership;
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < blocks; ++block) {
+            std::vector<std::uint8_t>& members = found[block];
+            for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
+                membership.find(points, isometries, families, i, horizon);
+                SubHorizonView::Step* steps = result.steps_.data() + result.first_step_[i];
+                std::size_t pairs = 0;
+                for (std::size_t b = 0; b < membership.count(); ++b) {
+                    steps[b] = membership.step(b);
+                    pairs += steps[b].pairs;
+                }
+                const bool wide = SubHorizonView{membership.count()}.wide();
+                const std::size_t first = members.size() + members.size() % 2;
+                result.first_byte_[i] = first; // in the buffer of the block
+                const std::size_t member = wide ? sizeof(std::uint16_t) : sizeof(std::uint8_t);
+                const std::size_t bytes = 2 * pairs * member;
+                members.resize(first + bytes + slack * member);
+                const auto write = [&](auto* next) {
+                    for (std::size_t b = 0; b < membership.count(); ++b)
+                        next = membership.write_members(b, steps[b], next);
+                };
+                if (wide)
+                    write(reinterpret_cast<std::uint16_t*>(members.data() + first));
+                else
+                    write(members.data() + first);
+                members.resize(first + bytes);
+            }
+        }
+    }
+    std::vector<std::size_t> start(blocks + 1, 0);
+    for (std::size_t block = 0; block < blocks; ++block)
+        start[block + 1] = start[block] + (found[block].size() + 1) / 2 * 2;
+    result.members_.resize(start[blocks]);
+#pragma omp parallel for schedule(static)
+    for (std::size_t block = 0; block < blocks; ++block) {
+        std::copy(found[block].begin(), found[block].end(), result.members_.data() + start[block]);
+        for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i)
+            result.first_byte_[i] += start[block];
+    }
+    return result;
+}
+
+std::size_t SubHorizons::memory() const
+{
+    return steps_.capacity() * sizeof(SubHorizonView::Step) + members_.capacity() +
+           (first_step_.capacity() + first_byte_.capacity()) * sizeof(std::size_t);
+}
+
+} // namespace periporo

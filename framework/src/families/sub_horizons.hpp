@@ -1,0 +1,62 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Sub-horizons of all bonds, kept as the way by which sums over them follow from each other.
+#pragma once
+
+#include "families/families.hpp"
+
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace periporo {
+
+/// The sub-horizons of one point's bonds. The sum of a quantity over the sub-horizon of bond b is the sum over that of
+/// an earlier bond, plus the members that enter, minus those that leave. Neighbours that lie near each other share most
+/// of their members: a bulk point of a lattice at delta = 3.015 dx has 6,764 members in its 122 sub-horizons, and its
+/// sums follow with 1,600 pairs of an addition and a subtraction.
+struct SubHorizonView {
+    struct Step {
+        std::uint16_t from;  ///< an earlier bond, or count: start from nothing, or count + 1: from the whole family
+        std::uint16_t pairs; ///< as many members enter as leave; `count` stands for no member
+    };
+    std::size_t count = 0;       ///< bonds
+    const Step* steps = nullptr; ///< one a bond
+    /// For each bond `pairs` members that enter, then `pairs` that leave; two bytes a member if wide().
+    const std::uint8_t* members = nullptr;
+
+    /// Do members need two bytes?
+    bool wide() const { return count > 254; }
+
+    /// Calls visit(members), with the members as std::uint8_t or std::uint16_t, as they are kept.
+    template <class Visit>
+    decltype(auto) with_members(Visit&& visit) const
+    {
+        return wide() ? visit(reinterpret_cast<const std::uint16_t*>(members)) : visit(members);
+    }
+};
+
+class SubHorizons {
+public:
+    /// Sub-horizons for the families of `points` as they are.
+    static SubHorizons find(const Points& points, const IsometryTable& isometries, const Families& families,
+                            double horizon);
+
+    SubHorizonView operator[](std::size_t point) const
+    {
+        return {first_step_[point + 1] - first_step_[point], steps_.data() + first_step_[point],
+                members_.data() + first_byte_[point]};
+    }
+
+    /// Bytes held.
+    std::size_t memory() const;
+
+private:
+    std::vector<SubHorizonView::Step> steps_;
+    std::vector<std::size_t> first_step_; // points + 1
+    AlignedVector<std::uint8_t> members_;
+    std::vector<std::size_t> first_byte_; // points
+};
+
+} // namespace periporo
