@@ -7,6 +7,10 @@
 #include <fmt/core.h>
 
 #include <cstdio>
+#include <limits>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace {
 
@@ -41,6 +45,12 @@ int run_program(int count, char** arguments)
 
 int main(int count, char** arguments)
 {
+#ifdef __GLIBC__
+    // Families are found anew all the time. Their memory stays with the process instead of going back to the system,
+    // which would hand it out again page by page.
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
     try {
         return run_program(count, arguments);
     } catch (const std::exception& error) {

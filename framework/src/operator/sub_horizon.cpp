@@ -230,16 +230,15 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
 void SubHorizonForceState::shares(const Model& model, std::size_t point, std::span<double> shares) const
 {
     const FamilyView family = model.families[point];
-    thread_local BondRows<pack_width, false> volume, sums;
-    volume.reserve(family.packs);
-    sums.reserve(family.packs);
+    thread_local AlignedVector<double> volume, sums;
+    volume.resize(family.count);
     for (std::size_t b = 0; b < family.count; ++b)
-        std::fill_n(volume.row(b), pack_width, model.records[family.neighbours[b]].volume);
+        volume[b] = model.records[family.neighbours[b]].volume;
     sum_sub_horizons(model.sub_horizons[point], volume, sums);
     double total = 0.0;
     for (std::size_t b = 0; b < shares.size(); ++b) {
         const bool active = (model.bonds.active[family.first_pack + b / pack_width] >> b % pack_width & 1u) != 0;
-        total += shares[b] = active ? *sums.row(b) + model.records[point].volume : 0.0;
+        total += shares[b] = active ? sums[b] + model.records[point].volume : 0.0;
     }
     if (total > 0.0)
         for (double& share : shares)

@@ -106,4 +106,29 @@ void sum_sub_horizons(const SubHorizonView& sub_horizons, BondRows<values, tail>
         std::fill(sum_tail + count, sum_tail + lanes, 0.0);
 }
 
+/// The same for one value a bond: `values` has one double a bond, `sums` gets one a bond.
+inline void sum_sub_horizons(const SubHorizonView& sub_horizons, AlignedVector<double>& values,
+                             AlignedVector<double>& sums)
+{
+    const std::size_t count = sub_horizons.count;
+    values.resize(count + 1);
+    values[count] = 0.0;
+    sums.assign(count + 2, 0.0);
+    for (std::size_t k = 0; k < count; ++k)
+        sums[count + 1] += values[k];
+    sub_horizons.with_members([&](auto* member) {
+        for (std::size_t b = 0; b < count; ++b) {
+            const SubHorizonView::Step step = sub_horizons.steps[b];
+            double enter = sums[step.from];
+            double leave = 0.0;
+            for (std::size_t m = 0; m < step.pairs; ++m, ++member) {
+                enter += values[member[0]];
+                leave += values[member[step.pairs]];
+            }
+            member += step.pairs;
+            sums[b] = enter - leave;
+        }
+    });
+}
+
 } // namespace periporo
