@@ -42,7 +42,7 @@ MUTATIONS = {
         _IDENTITIES,
     ),
     "influence_dropped_from_the_projected_force": Mutation(
-        "operator/bond_projection.cpp", "g.omega * ((own[3 * r]", "((own[3 * r]", _IDENTITIES
+        "operator/bond_projection.cpp", "const Pack weight = g.omega * g.volume * self_volume;", "const Pack weight = g.volume * self_volume;", _IDENTITIES
     ),
     "shares_that_do_not_sum_to_one": Mutation(
         "operator/sub_horizon.cpp",
@@ -71,8 +71,8 @@ MUTATIONS = {
     ),
     "point_variables_not_evened_out": Mutation(
         "operator/refresh.cpp",
-        "begun_with(model, force_state, i, family.neighbours[b], r);\n    }",
-        "bond_rows(model.bonds, i, model.rows(i), b)[r * pack_width];\n    }",
+        "bond[r * pack_width] = begun_with(model, i, neighbour, r);",
+        "static_cast<void>(begun_with(model, i, neighbour, r));",
         _REFRESH,
     ),
     "image_reaction_not_mirrored": Mutation(

@@ -37,7 +37,7 @@ Outcome one_step(const std::vector<Vector3>& positions, const ForceState& force,
 {
     std::uniform_real_distribution<double> value(-1.0, 1.0);
     Model model = from_positions(positions, dx);
-    find_first_families(model);
+    find_first_families(model, force);
     set_stress(model, [&](std::size_t, std::size_t) { return SymmetricTensor<double>::isotropic(-1e4); });
     set_velocity(model, [&](const Vector3&) { return Vector3(value(generator), value(generator), value(generator)); });
     force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, 1e-5});

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double dx = 0.01;
 
-Model cloud(unsigned seed = 7)
+Model cloud(const ForceState& force, unsigned seed = 7)
 {
     Model model = from_positions(jittered(lattice(7, 6, 8, dx), dx, 0.25, seed), dx);
-    find_first_families(model);
+    find_first_families(model, force);
     return model;
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("an affine velocity gives every bond of a random cloud, surfaces inclu
     for_every_operator(3.015 * dx, [&](const std::string& state, const std::string& influence, ForceState& force) {
         CAPTURE(state);
         CAPTURE(influence);
-        Model model = cloud();
+        Model model = cloud(force);
         set_velocity(model, [&](const Vector3& x) { return Vector3(gradient * x + Vector3(0.3, -0.2, 0.1)); });
         force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, dt});
         double worst = 0.0;
@@ -87,7 +87,7 @@ TEST_CASE("internal power equals stress power")
         CAPTURE(state);
         CAPTURE(influence);
         std::mt19937 generator(3);
-        Model model = cloud();
+        Model model = cloud(force);
         set_velocity(model, [&](const Vector3&) { return random_velocity(generator); });
         // one stress for both directions of a bond, as bond_projection shares it
         std::vector<SymmetricTensor<double>> stress(model.families.packs() * pack_width);
@@ -119,7 +119,7 @@ TEST_CASE("internal forces of any state of stress sum to zero, and so do their m
         CAPTURE(state);
         CAPTURE(influence);
         std::mt19937 generator(5);
-        Model model = cloud();
+        Model model = cloud(force);
         std::vector<SymmetricTensor<double>> stress(model.families.packs() * pack_width);
         for (auto& s : stress)
             s = random_stress(generator);
@@ -153,7 +153,7 @@ TEST_CASE("a uniform stress has the exact resultant on a random cloud: sum f (x)
             return;
         CAPTURE(state);
         CAPTURE(influence);
-        Model model = cloud();
+        Model model = cloud(force);
         set_stress(model, [&](std::size_t, std::size_t) { return sigma; });
         model.update_records();
         force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
@@ -169,7 +169,7 @@ TEST_CASE("a uniform stress gives no force inside a lattice")
         CAPTURE(state);
         CAPTURE(influence);
         Model model = from_positions(lattice(21, 20, 20, dx), dx);
-        find_first_families(model);
+        find_first_families(model, force);
         set_stress(model, [&](std::size_t, std::size_t) { return sigma; });
         model.update_records();
         force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
@@ -191,11 +191,11 @@ TEST_CASE("on the published lattice the volume-weighted state carries 0.83 of th
     const SymmetricTensor<double> sigma = SymmetricTensor<double>::isotropic(-1e3);
     const auto stress_carried = [&](const std::string& state) {
         Model model = from_positions(lattice(15, 15, 15, dx), dx);
-        find_first_families(model);
+        const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
+        find_first_families(model, *force);
         constexpr std::size_t centre = (7 * 15 + 7) * 15 + 7;
         set_stress(model, [&](std::size_t i, std::size_t) { return i == centre ? sigma : SymmetricTensor<double>{}; });
         model.update_records();
-        const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
         force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
         // no other point is stressed, so that the force on a neighbour is -V_i V_j T_ij
         const FamilyView family = model.families[centre];
@@ -232,7 +232,7 @@ TEST_CASE("a quarter with symmetry planes has the forces of the full model")
         Model cut = from_positions(quarter, dx);
         cut.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(1, 0.0)});
         for (Model* model : {&full, &cut}) {
-            find_first_families(*model);
+            find_first_families(*model, force);
             for (int step = 0; step < 3; ++step) {
                 set_velocity(*model, velocity);
                 force.evaluate(*model, {StressUpdate::advance, MaterialResponse::full, 1e-3});
@@ -273,7 +273,7 @@ TEST_CASE("a periodic slab one spacing thick has the forces of the middle of a w
         Model slab = from_positions(layer, dx);
         slab.isometries.set_generators({Isometry::shift(1, dx)});
         for (Model* model : {&wide, &slab}) {
-            find_first_families(*model);
+            find_first_families(*model, force);
             set_velocity(*model, velocity);
             force.evaluate(*model, {StressUpdate::advance, MaterialResponse::full, 1e-3});
         }

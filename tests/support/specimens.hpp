@@ -93,8 +93,7 @@ inline void set_velocity(Model& model, const std::function<Vector3(const Vector3
 /// One value of the state of bond b of a point: row 0..5 stress, then state variables.
 inline double& bond_value(Model& model, std::size_t point, std::size_t bond, std::size_t row)
 {
-    return model.bonds.state[model.bonds.first[point] + (bond / pack_width * model.rows(point) + row) * pack_width +
-                             bond % pack_width];
+    return model.bond_state(point, bond)[row * pack_width];
 }
 
 /// Sets the stress of every bond.

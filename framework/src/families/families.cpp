@@ -86,7 +86,8 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
     first_pack_.assign(n + 1, 0);
     for (std::size_t i = 0; i < n; ++i)
         first_pack_[i + 1] = first_pack_[i] + (count_[i] + pack_width - 1) / pack_width;
-    neighbours_.resize(first_pack_[n] * pack_width);
+    neighbours_.assign((first_pack_[n] + 1) * pack_width, 0);
+    lower_.assign(n, 0);
 #pragma omp parallel for schedule(static)
     for (std::size_t block = 0; block < blocks; ++block) {
         const std::uint32_t* next = found[block].data();
@@ -94,6 +95,7 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
             std::uint32_t* family = neighbours_.data() + first_pack_[i] * pack_width;
             std::uint32_t* end = neighbours_.data() + first_pack_[i + 1] * pack_width;
             std::fill(std::copy(next, next + count_[i], family), end, static_cast<std::uint32_t>(i));
+            lower_[i] = static_cast<std::uint16_t>(std::lower_bound(next, next + count_[i], i) - next);
             next += count_[i];
         }
     }
@@ -122,7 +124,8 @@ std::size_t Families::bonds() const
 std::size_t Families::memory() const
 {
     return images_.capacity() * sizeof(Image) + count_.capacity() * sizeof(std::uint32_t) +
-           first_pack_.capacity() * sizeof(std::size_t) + neighbours_.capacity() * sizeof(std::uint32_t);
+           lower_.capacity() * sizeof(std::uint16_t) + first_pack_.capacity() * sizeof(std::size_t) +
+           neighbours_.capacity() * sizeof(std::uint32_t);
 }
 
 } // namespace periporo

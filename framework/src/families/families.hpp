@@ -17,11 +17,13 @@
 namespace periporo {
 
 /// The family of one point. Bonds lie in packs of pack_width lanes; the lanes behind the last bond name the point
-/// itself, so that whatever is gathered there is finite.
+/// itself, so that whatever is gathered there is finite. Another pack_width neighbours may be read behind them, too:
+/// they name some point.
 struct FamilyView {
     std::size_t count = 0;      ///< bonds
     std::size_t packs = 0;      ///< packs of bonds
     std::size_t first_pack = 0; ///< of this point among all packs; bond b has slot first_pack * pack_width + b
+    std::size_t lower = 0;      ///< the first so many neighbours are points of smaller number; images come last
     /// Neighbour of each bond: a point, or points + n for image n.
     const std::uint32_t* neighbours = nullptr;
 
@@ -44,7 +46,8 @@ public:
     FamilyView operator[](std::size_t point) const
     {
         const std::size_t first = first_pack_[point];
-        return {count_[point], first_pack_[point + 1] - first, first, neighbours_.data() + first * pack_width};
+        return {count_[point], first_pack_[point + 1] - first, first, lower_[point],
+                neighbours_.data() + first * pack_width};
     }
 
     std::size_t points() const { return count_.size(); }
@@ -80,6 +83,7 @@ private:
 
     std::vector<Image> images_;
     std::vector<std::uint32_t> count_;
+    std::vector<std::uint16_t> lower_;
     std::vector<std::size_t> first_pack_; // points + 1
     std::vector<std::uint32_t> neighbours_;
 };

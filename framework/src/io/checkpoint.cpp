@@ -139,7 +139,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     copy_checked(vectors(archive.reals("refresh_position")), points.position, "position");
     copy_checked(archive.reals("volume"), points.volume, "volume");
     copy_checked(archive.reals("jacobian"), points.jacobian, "J");
-    find_first_families(model);
+    find_first_families(model, parts.force_state);
     parts.contact.find_candidates(model, contact_slack);
     copy_checked(archive.reals("bond_state"), model.bonds.state, "bond state");
     copy_checked(archive.bytes("bond_active"), model.bonds.active, "bond activity");

@@ -42,6 +42,7 @@ public:
 
 struct CheckpointParts {
     Model& model;
+    const ForceState& force_state;
     ContactForces& contact;
     Dynamics& dynamics;
     FrequencyEstimate& frequency;

@@ -30,8 +30,29 @@ void Model::find_families()
 {
     families = Families::find(points, isometries, horizon);
     halos = Halos::find(families);
-    if (needs_sub_horizons)
-        sub_horizons = SubHorizons::find(points, isometries, families, horizon);
+    sub_horizons = has_sub_horizons ? SubHorizons::find(points, isometries, families, horizon) : SubHorizons();
+}
+
+const double* Model::bond_state(std::size_t point, std::size_t b) const
+{
+    const std::size_t first = has_shared_bonds ? families[point].lower : 0;
+    if (b < first) {
+        const std::uint32_t neighbour = families[point].neighbours[b];
+        return bond_state(neighbour, families.opposite(static_cast<std::uint32_t>(point), neighbour, isometries));
+    }
+    const std::size_t held = b - first;
+    return bonds.state.data() + bonds.first[point] + held / pack_width * rows(point) * pack_width + held % pack_width;
+}
+
+void Model::allocate_bonds()
+{
+    const std::size_t n = size();
+    bonds.first.assign(n + 1, 0);
+    for (std::size_t i = 0; i < n; ++i)
+        bonds.first[i + 1] = bonds.first[i] + held(i).packs * rows(i) * pack_width;
+    bonds.state.resize(bonds.first[n]);
+    bonds.active.resize(families.packs());
+    refresh_position = points.position;
 }
 
 void Model::update_records()
@@ -63,7 +84,8 @@ std::size_t Model::memory() const
         5 * sizeof(Vector3) + 6 * sizeof(double) + sizeof(std::uint32_t) + sizeof(std::int64_t) + // Points
         2 * sizeof(Vector3) + 2 * sizeof(double) + sizeof(std::uint32_t) + 1 + state_stride * sizeof(double);
     return size() * per_point + records.capacity() * sizeof(NeighbourRecord) + families.memory() +
-           sub_horizons.memory() + halos.memory() + at_places.capacity() * sizeof(double) + bonds.memory();
+           sub_horizons.memory() + halos.memory() + (at_places.capacity() + lent.capacity()) * sizeof(double) +
+           bonds.memory();
 }
 
 } // namespace periporo

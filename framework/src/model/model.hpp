@@ -40,15 +40,27 @@ struct alignas(64) NeighbourRecord {
 
 /// What bonds carry from step to step: stress and internal variables.
 struct BondData {
-    /// For each point its packs, for each pack `rows` rows of pack_width: effective stress, then state variables.
+    /// For each point the packs of the bonds that it holds, for each pack `rows` rows of pack_width: effective stress,
+    /// then state variables.
     AlignedVector<double> state;
     std::vector<std::size_t> first;   ///< of a point, in `state`
-    std::vector<std::uint8_t> active; ///< for each pack one bit a bond: does it carry stress?
+    std::vector<std::uint8_t> active; ///< for each pack of a family one bit a bond: does it carry stress?
 
     std::size_t memory() const
     {
         return state.capacity() * sizeof(double) + first.capacity() * sizeof(std::size_t) + active.capacity();
     }
+};
+
+/// The bonds of a point whose state it holds: a family from bond `first` on, in packs of their own.
+struct HeldBonds {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    std::size_t packs = 0;
+    const std::uint32_t* neighbours = nullptr;
+    double* state = nullptr;
+
+    std::size_t bonds_in(std::size_t pack) const { return std::min(pack_width, count - pack * pack_width); }
 };
 
 /// Seconds that a few points took of an evaluation, by its parts; only their ratios mean something.
@@ -73,7 +85,8 @@ struct Model {
     IsometryTable isometries;
     bool wet = false; ///< has some point suction or saturation? As update_records() found it.
     Families families;
-    bool needs_sub_horizons = true; ///< does the force state in use ask for them?
+    bool has_sub_horizons = true;  ///< does the force state in use ask for them?
+    bool has_shared_bonds = false; ///< do (i,j) and (j,i) have one state? Then the point of smaller number holds it
     SubHorizons sub_horizons;
     Halos halos;
     BondData bonds;
@@ -86,8 +99,10 @@ struct Model {
     std::vector<Vector3> refresh_position;  ///< positions that the families were found from
     AlignedVector<NeighbourRecord> records; ///< of points, then images
 
-    /// Within an evaluation: what gathers at the places of the halos, a few doubles a place.
+    /// Within an evaluation: what gathers at the places of the halos, and what points and images lend to their bonds, a
+    /// few doubles each.
     AlignedVector<double> at_places;
+    AlignedVector<double> lent;
 
     // Outcome of the last evaluation of the operator, point by point.
     std::vector<Vector3> internal_force; ///< [N]
@@ -101,9 +116,26 @@ struct Model {
     const Body& body_of(std::size_t point) const { return bodies[points.body[point]]; }
     std::size_t rows(std::size_t point) const { return body_of(point).rows(); }
 
+    /// Bonds to images are held by both ends: their states are mirrored.
+    HeldBonds held(std::size_t point)
+    {
+        const FamilyView family = families[point];
+        const std::size_t first = has_shared_bonds ? family.lower : 0;
+        return {first, family.count - first, (family.count - first + pack_width - 1) / pack_width,
+                family.neighbours + first, bonds.state.data() + bonds.first[point]};
+    }
+    /// First of the rows of bond b of a point, held by whichever end; rows are pack_width apart.
+    const double* bond_state(std::size_t point, std::size_t b) const;
+    double* bond_state(std::size_t point, std::size_t b)
+    {
+        return const_cast<double*>(static_cast<const Model*>(this)->bond_state(point, b));
+    }
+    /// Sizes of the bond data for the families as they are; values are not set.
+    void allocate_bonds();
+
     /// Sets the sizes of everything that has one value a point.
     void allocate();
-    /// Families, and what follows from them, at the current positions.
+    /// Families, and what follows from them, at the current positions. Bond data are not touched.
     void find_families();
     /// Copies positions, velocities and volumes of points and images to the records.
     void update_records();

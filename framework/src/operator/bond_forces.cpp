@@ -22,7 +22,7 @@ void BondForces::hand_out(Model& model)
                 force = model.isometries[model.isometries.inverse(arrival.isometry)].direction(force);
             sum += force;
         }
-        model.internal_force[i] = sum;
+        model.internal_force[i] += sum;
     }
 }
 

@@ -19,8 +19,12 @@ namespace periporo {
 /// and are handed out afterwards, so that no result depends on the number of threads.
 class BondForces {
 public:
-    /// Before the first block of an evaluation.
-    static void prepare(Model& model) { model.at_places.resize(model.halos.places() * place_stride); }
+    /// Before the first block of an evaluation: room, and no forces.
+    static void prepare(Model& model)
+    {
+        model.at_places.resize(model.halos.places() * place_stride);
+        std::fill(model.internal_force.begin(), model.internal_force.end(), Vector3::Zero());
+    }
 
     /// Begins a block: its places are empty.
     BondForces(Model& model, std::size_t block)
@@ -44,6 +48,25 @@ public:
         }
     }
 
+    /// The same for a pack of bonds that the point holds, without those to images: their parents hold the mirrored
+    /// bond.
+    void take_from_points(const Model& model, const FamilyView& family, const HeldBonds& held, std::size_t pack,
+                          const std::array<Pack, 3>& force)
+    {
+        alignas(64) double lanes[3][pack_width];
+        for (std::size_t c = 0; c < 3; ++c)
+            store_pack(force[c], lanes[c]);
+        const std::size_t first = pack * pack_width;
+        const std::uint16_t* place = halos_.place_of_neighbours(family.first_pack) + held.first + first;
+        for (std::size_t lane = 0; lane < held.bonds_in(pack); ++lane) {
+            if (held.neighbours[first + lane] >= model.size())
+                continue;
+            double* at = places_ + place[lane] * place_stride;
+            for (std::size_t c = 0; c < 3; ++c)
+                at[c] -= lanes[c][lane];
+        }
+    }
+
     /// Gives the sum of the forces of its bonds to a point of the block.
     void give_to(std::size_t point, const std::array<Pack, 3>& force)
     {
@@ -52,7 +75,8 @@ public:
             at[c] += reduce(force[c]);
     }
 
-    /// After the last block: internal forces of all points.
+    /// After the last block: adds what has gathered to the internal forces of all points, which are zero before unless
+    /// something else was put there.
     static void hand_out(Model& model);
 
 private:

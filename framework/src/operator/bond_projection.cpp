@@ -6,336 +6,406 @@
 #include "operator/bond_forces.hpp"
 #include "operator/bond_update.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
 namespace periporo {
 namespace {
 
-/// What a point lends to its bonds. Images hold theirs in their own frame, so that bonds need not ask.
-struct PointKinematics {
-    Tensor<double> gradient;               ///< L_i
-    SymmetricTensor<double> inverse_shape; ///< K_i^-1
-    Tensor<double> moment;                 ///< A_i K_i^-1
-    double reciprocal_weight = 0.0;        ///< 1/w0_i; 0 when no bond is active
-    bool sound = false;                    ///< K_i can be inverted
-};
+/// What a point lends to its bonds, as rows of 16 doubles in Model::lent: those of all points and images, twice. Images
+/// hold theirs in their own frame, so that bonds need not ask.
+constexpr std::size_t lent_values = 16;
+/// The first row: L_i (9), 1/w0_i (0 when no bond is active), K_i^-1 (6; all zero where K_i cannot be inverted).
+enum FirstRow : std::size_t { gradient_at = 0, reciprocal_weight_at = 9, inverse_shape_at = 10 };
+/// The second row: A_i K_i^-1 (9), then nothing.
+enum SecondRow : std::size_t { moment_at = 0 };
 
-Tensor<double> in_frame_of(const Isometry& isometry, const Tensor<double>& t)
+/// What the bonds of a point add at the places of its halo: A (9), force (3), shares of work and dilation.
+constexpr std::size_t place_values = 16;
+
+Tensor<double> tensor_at(const double* c)
 {
-    Eigen::Matrix3d m;
-    m << t.xx, t.xy, t.xz, t.yx, t.yy, t.yz, t.zx, t.zy, t.zz;
-    const Eigen::Matrix3d r = isometry.rotation * m * isometry.rotation.transpose();
-    return {r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)};
+    return {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]};
+}
+void store_tensor(const Tensor<double>& t, double* c)
+{
+    for (const double component : {t.xx, t.xy, t.xz, t.yx, t.yy, t.yz, t.zx, t.zy, t.zz})
+        *c++ = component;
 }
 
-/// Buffers of one thread: rows of one value a bond.
-struct Workspace {
-    AlignedVector<double> rows[10]; // zeta/|zeta|^2 (3), omega, velocity difference (3), zeta (3)
-    AlignedVector<double> volume;
-    AlignedVector<double> gradient;
-    StressWorkspace stress;
+void copy_in_frame_of(const Isometry& isometry, const double* from, double* to)
+{
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> parent(from);
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{to} =
+        isometry.rotation * parent * isometry.rotation.transpose();
+}
 
-    void reserve(std::size_t packs)
+/// The geometry of a pack of bonds.
+struct BondGeometry {
+    Pack x, y, z;    ///< zeta
+    Pack nx, ny, nz; ///< zeta/|zeta|^2; zero in lanes without a bond
+    Pack squared;    ///< |zeta|^2
+    Pack u, v, t;    ///< v_j - v_i
+    Pack omega;      ///< zero in lanes without a bond
+    Pack volume;     ///< of the neighbour
+
+    BondGeometry(const Model& model, std::size_t point, const std::uint32_t* neighbours, const PackMask& bonds,
+                 const Influence& influence)
     {
-        if (volume.size() < packs * pack_width) {
-            for (auto& row : rows)
-                row.resize(packs * pack_width);
-            volume.resize(packs * pack_width);
-        }
-        gradient.resize(9 * packs * pack_width);
-        stress.reserve(packs);
+        const NeighbourRecord& self = model.records[point];
+        const std::array<Pack, 8> other =
+            load_transposed<8>([&](std::size_t lane) { return model.records[neighbours[lane]].position; });
+        x = other[0] - self.position[0];
+        y = other[1] - self.position[1];
+        z = other[2] - self.position[2];
+        u = other[4] - self.velocity[0];
+        v = other[5] - self.velocity[1];
+        t = other[6] - self.velocity[2];
+        squared = x * x + y * y + z * z;
+        const PackMask real = bonds && squared > Pack(0.0);
+        const Pack reciprocal = select(real, Pack(1.0) / squared, Pack(0.0));
+        nx = x * reciprocal;
+        ny = y * reciprocal;
+        nz = z * reciprocal;
+        omega = select(real, influence(squared), Pack(0.0));
+        volume = other[3];
     }
 };
 
-enum Row : std::size_t { direction = 0, omega_row = 3, velocity = 4, bond = 7 };
-
-/// Lanes behind the last bond get zero influence, direction and volume.
-void gather(const Model& model, std::size_t point, const FamilyView& family, const Influence& influence, Workspace& w)
-{
-    const NeighbourRecord& self = model.records[point];
-    for (std::size_t b = 0; b < family.packs * pack_width; ++b) {
-        const NeighbourRecord& other = model.records[family.neighbours[b]];
-        for (std::size_t c = 0; c < 3; ++c) {
-            w.rows[bond + c][b] = other.position[c] - self.position[c];
-            w.rows[velocity + c][b] = other.velocity[c] - self.velocity[c];
-        }
-        w.volume[b] = b < family.count ? other.volume : 0.0;
-    }
-    for (std::size_t at = 0; at < family.packs * pack_width; at += pack_width) {
-        const Pack x = load_pack(&w.rows[bond][at]);
-        const Pack y = load_pack(&w.rows[bond + 1][at]);
-        const Pack z = load_pack(&w.rows[bond + 2][at]);
-        const Pack squared = x * x + y * y + z * z;
-        const PackMask real = squared > Pack(0.0);
-        const Pack reciprocal = select(real, Pack(1.0) / squared, Pack(0.0));
-        store_pack(x * reciprocal, &w.rows[direction][at]);
-        store_pack(y * reciprocal, &w.rows[direction + 1][at]);
-        store_pack(z * reciprocal, &w.rows[direction + 2][at]);
-        store_pack(select(real, influence(squared), Pack(0.0)), &w.rows[omega_row][at]);
-    }
-}
-
-/// Calls visit(point, family, workspace) for every point, in parallel, with its family gathered.
+/// Calls visit(block, samples) for every block of points, in parallel.
 template <class Visit>
-void for_every_family(const Model& model, const Influence& influence, Visit&& visit)
+void for_every_block(Model& model, Visit&& visit)
 {
 #pragma omp parallel
     {
-        Workspace w;
-#pragma omp for schedule(dynamic, 32)
-        for (std::size_t i = 0; i < model.size(); ++i) {
-            const FamilyView family = model.families[i];
-            w.reserve(family.packs);
-            gather(model, i, family, influence, w);
-            visit(i, family, w);
-        }
+        OperatorSamples samples;
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < model.halos.blocks(); ++block)
+            visit(block, samples);
+#pragma omp critical(periporo_operator_samples)
+        model.operator_samples += samples;
     }
 }
 
-struct BondGeometry {
-    Pack x, y, z;    ///< zeta
-    Pack nx, ny, nz; ///< zeta/|zeta|^2
-    Pack u, v, t;    ///< v_j - v_i
-    Pack omega, volume;
+class Evaluator {
+public:
+    Evaluator(Model& model, const Influence& influence, const Evaluation& evaluation)
+        : model_(model), influence_(influence), evaluation_(evaluation),
+          least_squared_(shortest_bond * shortest_bond * model.spacing * model.spacing)
+    {
+        const std::size_t rows = model.size() + model.families.images().size();
+        model.lent.resize(2 * rows * lent_values);
+        first_rows_ = model.lent.data();
+        second_rows_ = first_rows_ + rows * lent_values;
+        model.at_places.resize(model.halos.places() * place_values);
+    }
+
+    void run();
+
+private:
+    double* first_row(std::size_t point) { return first_rows_ + point * lent_values; }
+    double* second_row(std::size_t point) { return second_rows_ + point * lent_values; }
+    bool sound(std::size_t point) { return first_row(point)[inverse_shape_at] != 0.0; }
+
+    bool find_gradient(std::size_t point);
+    double find_activity(std::size_t point);
+    void update_stress(std::size_t point, double* places, std::size_t first_point, StressWorkspace& workspace,
+                       OperatorSamples& samples);
+    void collect(std::size_t point);
+    void add_moments(std::size_t point, BondForces& forces);
+
+    template <class Copy>
+    void update_images(Copy&& copy);
+
+    Model& model_;
+    const Influence& influence_;
+    const Evaluation& evaluation_;
+    double least_squared_;
+    double* first_rows_;
+    double* second_rows_;
+    FirstFailure failure_;
 };
 
-BondGeometry geometry(const Workspace& w, std::size_t at)
+/// L_i, K_i^-1 and 1/w0_i as if all bonds were active. Returns whether they can be: the point is sound and none of its
+/// bonds too short.
+bool Evaluator::find_gradient(std::size_t point)
 {
-    const auto row = [&](std::size_t r) { return load_pack(&w.rows[r][at]); };
-    return {row(bond),          row(bond + 1),      row(bond + 2),           row(direction),
-            row(direction + 1), row(direction + 2), row(velocity),           row(velocity + 1),
-            row(velocity + 2),  row(omega_row),     load_pack(&w.volume[at])};
-}
-
-/// Gathers member `field` of the point kinematics of the neighbours, component by component.
-template <std::size_t components, class Read>
-std::array<Pack, components> gather_point(const std::vector<PointKinematics>& points, const std::uint32_t* neighbours,
-                                          Read&& read)
-{
-    alignas(64) double buffer[components][pack_width];
-    for (std::size_t lane = 0; lane < pack_width; ++lane) {
-        const std::array<double, components> values = read(points[neighbours[lane]]);
-        for (std::size_t c = 0; c < components; ++c)
-            buffer[c][lane] = values[c];
-    }
-    std::array<Pack, components> packs;
-    for (std::size_t c = 0; c < components; ++c)
-        packs[c] = load_pack(buffer[c]);
-    return packs;
-}
-
-std::array<double, 9> components(const Tensor<double>& t)
-{
-    return {t.xx, t.xy, t.xz, t.yx, t.yy, t.yz, t.zx, t.zy, t.zz};
-}
-
-/// K_i, L_i and whether they exist.
-PointKinematics point_kinematics(const FamilyView& family, const Workspace& w)
-{
+    const FamilyView family = model_.families[point];
     SymmetricTensor<Pack> shape;
     Tensor<Pack> moment;
-    for (std::size_t at = 0; at < family.packs * pack_width; at += pack_width) {
-        const BondGeometry g = geometry(w, at);
+    Pack weights = 0.0;
+    PackMask too_short(false);
+    for (std::size_t p = 0; p < family.packs; ++p) {
+        const PackMask bonds = lane_mask(family.lanes(p));
+        const BondGeometry g(model_, point, family.neighbours + p * pack_width, bonds, influence_);
         const Pack weight = g.omega * g.volume;
-        shape += SymmetricTensor<Pack>{g.x * g.nx, g.y * g.ny, g.z * g.nz, g.x * g.ny, g.y * g.nz, g.x * g.nz} * weight;
-        moment += Tensor<Pack>{g.u * g.nx, g.u * g.ny, g.u * g.nz, g.v * g.nx, g.v * g.ny,
-                               g.v * g.nz, g.t * g.nx, g.t * g.ny, g.t * g.nz} *
-                  weight;
+        const Pack wx = weight * g.nx;
+        const Pack wy = weight * g.ny;
+        const Pack wz = weight * g.nz;
+        shape += {g.x * wx, g.y * wy, g.z * wz, g.x * wy, g.y * wz, g.x * wz};
+        moment += {g.u * wx, g.u * wy, g.u * wz, g.v * wx, g.v * wy, g.v * wz, g.t * wx, g.t * wy, g.t * wz};
+        weights += weight;
+        too_short = too_short || (bonds && g.squared < least_squared_);
     }
-    PointKinematics point;
     const SymmetricTensor<double> k{reduce(shape.xx), reduce(shape.yy), reduce(shape.zz),
                                     reduce(shape.xy), reduce(shape.yz), reduce(shape.xz)};
     const double mean = trace(k) / 3.0;
     const double det = determinant(k);
-    point.sound = mean > 0.0 && det >= least_shape_quality * mean * mean * mean;
-    if (point.sound) {
-        point.inverse_shape = adjugate(k) * (1.0 / det);
-        point.gradient = Tensor<double>{reduce(moment.xx), reduce(moment.xy), reduce(moment.xz),
-                                        reduce(moment.yx), reduce(moment.yy), reduce(moment.yz),
-                                        reduce(moment.zx), reduce(moment.zy), reduce(moment.zz)} *
-                         point.inverse_shape;
-    }
-    return point;
+    double* row = first_row(point);
+    std::fill_n(row, lent_values, 0.0);
+    if (!(mean > 0.0 && det >= least_shape_quality * mean * mean * mean))
+        return false;
+    const SymmetricTensor<double> inverse = adjugate(k) * (1.0 / det);
+    store_tensor(Tensor<double>{reduce(moment.xx), reduce(moment.xy), reduce(moment.xz), reduce(moment.yx),
+                                reduce(moment.yy), reduce(moment.yz), reduce(moment.zx), reduce(moment.zy),
+                                reduce(moment.zz)} *
+                     inverse,
+                 row + gradient_at);
+    double* at = row + inverse_shape_at;
+    for (const double c : {inverse.xx, inverse.yy, inverse.zz, inverse.xy, inverse.yz, inverse.xz})
+        *at++ = c;
+    row[reciprocal_weight_at] = 1.0 / reduce(weights);
+    return !any(too_short);
 }
 
 /// Finds the active bonds of a point and returns 1/w0, once the soundness of all points is known.
-double find_activity(Model& model, const std::vector<PointKinematics>& points, std::size_t i,
-                     const Influence& influence)
+double Evaluator::find_activity(std::size_t point)
 {
-    const FamilyView family = model.families[i];
+    const FamilyView family = model_.families[point];
     double weight = 0.0;
     std::uint32_t active = 0;
-    const NeighbourRecord& self = model.records[i];
+    const NeighbourRecord& self = model_.records[point];
     for (std::size_t p = 0; p < family.packs; ++p) {
         std::uint8_t bits = 0;
-        for (std::size_t lane = 0; lane < pack_width; ++lane) {
-            const std::size_t b = p * pack_width + lane;
-            if (b >= family.count || !points[i].sound || !points[family.neighbours[b]].sound)
+        for (std::size_t lane = 0; lane < family.bonds_in(p); ++lane) {
+            const std::uint32_t j = family.neighbours[p * pack_width + lane];
+            if (!sound(point) || !sound(j))
                 continue;
-            const NeighbourRecord& other = model.records[family.neighbours[b]];
-            double squared = 0.0;
-            for (std::size_t c = 0; c < 3; ++c)
-                squared += (other.position[c] - self.position[c]) * (other.position[c] - self.position[c]);
-            if (squared < shortest_bond * shortest_bond * model.spacing * model.spacing)
+            const double squared = (model_.records[j].x() - self.x()).squaredNorm();
+            if (squared < least_squared_)
                 continue;
             bits = static_cast<std::uint8_t>(bits | 1u << lane);
-            weight += influence(squared) * other.volume;
+            weight += influence_(squared) * model_.records[j].volume;
             ++active;
         }
-        model.bonds.active[family.first_pack + p] = bits;
+        model_.bonds.active[family.first_pack + p] = bits;
     }
-    model.inactive_bonds[i] = static_cast<std::uint32_t>(family.count) - active;
-    model.free_grain[i] = active == 0 ? 1 : 0;
+    model_.inactive_bonds[point] = static_cast<std::uint32_t>(family.count) - active;
+    model_.free_grain[point] = active == 0 ? 1 : 0;
     return weight > 0.0 ? 1.0 / weight : 0.0;
 }
 
-/// S_ij = omega (1/w0_i + 1/w0_j) of a pack, zero where inactive.
-Pack mutual_weight(const std::vector<PointKinematics>& points, std::size_t i, const std::uint32_t* neighbours,
-                   const Pack& omega, std::uint8_t active)
+/// Stress of the bonds that the point holds, and what follows from it at both their ends.
+void Evaluator::update_stress(std::size_t point, double* places, std::size_t first_point, StressWorkspace& workspace,
+                              OperatorSamples& samples)
 {
-    const auto other =
-        gather_point<1>(points, neighbours, [](const PointKinematics& k) { return std::array{k.reciprocal_weight}; });
-    return select(lane_mask(active), omega * (points[i].reciprocal_weight + other[0]), Pack(0.0));
-}
+    SampledTimes times(samples, point);
+    const HeldBonds held = model_.held(point);
+    const std::size_t first_pack = model_.families[point].first_pack;
+    const double* own = first_row(point);
+    const Tensor<double> own_gradient = tensor_at(own + gradient_at);
+    BondStress stress(model_, point, held.neighbours, held.packs, held.state, evaluation_, workspace);
+    struct Kept {
+        BondGeometry geometry;
+        Pack reciprocal_weight;
+    };
+    thread_local std::vector<Kept> kept; // only ever grows
+    kept.clear();
+    for (std::size_t p = 0; p < held.packs; ++p) {
+        const std::uint32_t* neighbours = held.neighbours + p * pack_width;
+        std::uint8_t lanes = 0;
+        for (std::size_t lane = 0; lane < held.bonds_in(p); ++lane) {
+            const std::size_t b = held.first + p * pack_width + lane;
+            lanes = static_cast<std::uint8_t>(
+                lanes | (model_.bonds.active[first_pack + b / pack_width] >> b % pack_width & 1u) << lane);
+        }
+        const PackMask active = lane_mask(lanes);
+        const BondGeometry g(model_, point, neighbours, active, influence_);
+        const auto other = load_transposed<lent_values>([&](std::size_t lane) { return first_row(neighbours[lane]); });
+        Tensor<Pack> l{other[0], other[1], other[2], other[3], other[4], other[5], other[6], other[7], other[8]};
+        l += Tensor<Pack>{own_gradient.xx, own_gradient.xy, own_gradient.xz, own_gradient.yx, own_gradient.yy,
+                          own_gradient.yz, own_gradient.zx, own_gradient.zy, own_gradient.zz};
+        l *= Pack(0.5);
+        const Pack ru = g.u - (l.xx * g.x + l.xy * g.y + l.xz * g.z);
+        const Pack rv = g.v - (l.yx * g.x + l.yy * g.y + l.yz * g.z);
+        const Pack rt = g.t - (l.zx * g.x + l.zy * g.y + l.zz * g.z);
+        l += {ru * g.nx, ru * g.ny, ru * g.nz, rv * g.nx, rv * g.ny, rv * g.nz, rt * g.nx, rt * g.ny, rt * g.nz};
+        const Tensor<Pack> at_middle = at_mid_step(l, 2.0 * evaluation_.gradient_lag());
+        stress.begin(p, where_active(active, at_middle), lanes);
+        kept.push_back({g, other[reciprocal_weight_at]});
+    }
+    times.end_of(&OperatorSamples::kinematics);
+    if (const MaterialStatus status = stress.update(); !status.converged)
+        failure_.report(point, {false, held.first + status.bond, status.reason});
+    times.end_of(&OperatorSamples::material);
 
-/// Velocity gradients of the bonds of point i, into the stress workspace.
-void bond_gradients(const Model& model, const std::vector<PointKinematics>& points, std::size_t i,
-                    const FamilyView& family, Workspace& w)
-{
-    for (std::size_t p = 0; p < family.packs; ++p) {
-        const BondGeometry g = geometry(w, p * pack_width);
-        const std::uint8_t active = model.bonds.active[family.first_pack + p];
-        const auto other = gather_point<9>(points, family.neighbours + p * pack_width,
-                                           [](const PointKinematics& k) { return components(k.gradient); });
-        const std::array<double, 9> own = components(points[i].gradient);
-        std::array<Pack, 9> l;
-        for (std::size_t c = 0; c < 9; ++c)
-            l[c] = 0.5 * (own[c] + other[c]);
-        const Pack rest[3] = {g.u - (l[0] * g.x + l[1] * g.y + l[2] * g.z),
-                              g.v - (l[3] * g.x + l[4] * g.y + l[5] * g.z),
-                              g.t - (l[6] * g.x + l[7] * g.y + l[8] * g.z)};
-        const PackMask mask = lane_mask(active);
-        double* rows = w.gradient.data() + p * 9 * pack_width;
-        for (std::size_t r = 0; r < 3; ++r) {
-            std::size_t c = 3 * r;
-            for (const Pack* n : {&g.nx, &g.ny, &g.nz}) {
-                store_pack(select(mask, l[c] + rest[r] * *n, Pack(0.0)), rows + c * pack_width);
-                ++c;
-            }
+    const double self_volume = model_.records[point].volume;
+    std::array<Pack, place_values> own_sums;
+    own_sums.fill(Pack(0.0));
+    for (std::size_t p = 0; p < held.packs; ++p) {
+        const BondGeometry& g = kept[p].geometry;
+        const PackMask active = lane_mask(stress.active(p));
+        const BondStress::Outcome bond = stress.end(p);
+        const SymmetricTensor<Pack>& s = bond.stress;
+        const Pack mutual =
+            select(active, g.omega * (kept[p].reciprocal_weight + own[reciprocal_weight_at]), Pack(0.0)); // S_ij
+        const Pack tx = s.xx * g.nx + s.xy * g.ny + s.xz * g.nz;
+        const Pack ty = s.xy * g.nx + s.yy * g.ny + s.yz * g.nz;
+        const Pack tz = s.xz * g.nx + s.yz * g.ny + s.zz * g.nz;
+        const Pack half = 0.5 * mutual;
+        const std::array<Pack, 9> projected{
+            half * (s.xx - tx * g.x), half * (s.xy - tx * g.y), half * (s.xz - tx * g.z),
+            half * (s.xy - ty * g.x), half * (s.yy - ty * g.y), half * (s.yz - ty * g.z),
+            half * (s.xz - tz * g.x), half * (s.yz - tz * g.y), half * (s.zz - tz * g.z)};
+        const Pack product = mutual * g.volume * self_volume;
+        const std::array<Pack, 3> force{product * tx, product * ty, product * tz};
+        const Pack own_share = g.omega * g.volume * own[reciprocal_weight_at];
+        const Pack other_share = g.omega * self_volume * kept[p].reciprocal_weight;
+        std::array<Pack, place_values> at_other;
+        for (std::size_t c = 0; c < 9; ++c) {
+            own_sums[c] += g.volume * projected[c];
+            at_other[c] = self_volume * projected[c];
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            own_sums[9 + c] += force[c];
+            at_other[9 + c] = -force[c];
+        }
+        own_sums[12] += own_share * bond.work;
+        own_sums[13] += own_share * bond.dilation;
+        at_other[12] = other_share * bond.work;
+        at_other[13] = other_share * bond.dilation;
+        at_other[14] = at_other[15] = 0.0;
+        alignas(64) double rows[pack_width * place_values];
+        store_transposed<place_values>(at_other, rows);
+        const std::uint32_t* neighbours = held.neighbours + p * pack_width;
+        for (std::size_t lane = 0; lane < held.bonds_in(p); ++lane) {
+            if (neighbours[lane] >= model_.size())
+                continue; // an image: its parent holds the mirrored bond
+            const std::size_t b = held.first + p * pack_width + lane;
+            double* at = places + model_.halos.place_of_neighbours(first_pack)[b] * place_values;
+            for (std::size_t c = 0; c < place_values; c += pack_width)
+                store_pack(load_pack(at + c) + load_pack(rows + lane * place_values + c), at + c);
         }
     }
+    double* at = places + (point - first_point) * place_values;
+    for (std::size_t c = 0; c < 14; ++c)
+        at[c] += reduce(own_sums[c]);
+    times.end_of(&OperatorSamples::force);
 }
 
-/// A_i, and sigma_ij zeta/|zeta|^2 S_ij left in the rows of the force state.
-Tensor<double> stress_sums(Model& model, const std::vector<PointKinematics>& points, std::size_t i,
-                           const FamilyView& family, const Workspace& w, const BondStress& bs, Pack& work, Pack& dil)
+/// Sums what arrived at a point: A_i K_i^-1, the first part of its force, its work and dilation.
+void Evaluator::collect(std::size_t point)
 {
-    Tensor<Pack> sum;
-    for (std::size_t p = 0; p < family.packs; ++p) {
-        const BondGeometry g = geometry(w, p * pack_width);
-        const auto out = bs.end(p);
-        const SymmetricTensor<Pack>& stress = out.stress;
-        const Pack sh = select(lane_mask(bs.active(p)), g.omega * g.volume * points[i].reciprocal_weight, Pack(0.0));
-        work += sh * out.work;
-        dil += sh * out.dilation;
-        const Pack weight = mutual_weight(points, i, family.neighbours + p * pack_width, g.omega, w.stress.lanes[p]);
-        const Pack tx = stress.xx * g.nx + stress.xy * g.ny + stress.xz * g.nz;
-        const Pack ty = stress.xy * g.nx + stress.yy * g.ny + stress.yz * g.nz;
-        const Pack tz = stress.xz * g.nx + stress.yz * g.ny + stress.zz * g.nz;
-        double* rows = model.at_places.data() + (family.first_pack + p) * 3 * pack_width;
-        store_pack(weight * tx, rows);
-        store_pack(weight * ty, rows + pack_width);
-        store_pack(weight * tz, rows + 2 * pack_width);
-        const Pack half = 0.5 * g.volume * weight;
-        sum += Tensor<Pack>{stress.xx - tx * g.x, stress.xy - tx * g.y, stress.xz - tx * g.z,
-                            stress.xy - ty * g.x, stress.yy - ty * g.y, stress.yz - ty * g.z,
-                            stress.xz - tz * g.x, stress.yz - tz * g.y, stress.zz - tz * g.z} *
-               half;
+    std::array<Pack, place_values / pack_width> sum;
+    sum.fill(Pack(0.0));
+    for (const Halos::Arrival arrival : model_.halos.arrivals(point)) {
+        if (arrival.isometry != 0)
+            continue; // nothing was added to images
+        const double* at = model_.at_places.data() + arrival.place * place_values;
+        for (std::size_t c = 0; c < sum.size(); ++c)
+            sum[c] += load_pack(at + c * pack_width);
     }
-    return {reduce(sum.xx), reduce(sum.xy), reduce(sum.xz), reduce(sum.yx), reduce(sum.yy),
-            reduce(sum.yz), reduce(sum.zx), reduce(sum.zy), reduce(sum.zz)};
+    alignas(64) double values[place_values];
+    for (std::size_t c = 0; c < sum.size(); ++c)
+        store_pack(sum[c], values + c * pack_width);
+    const double* k = first_row(point) + inverse_shape_at;
+    double* row = second_row(point);
+    std::fill_n(row, lent_values, 0.0);
+    store_tensor(tensor_at(values) * SymmetricTensor<double>{k[0], k[1], k[2], k[3], k[4], k[5]}, row + moment_at);
+    model_.internal_force[point] = Vector3(values[9], values[10], values[11]);
+    model_.stress_work[point] = model_.points.volume[point] * values[12];
+    model_.volume_rate[point] = values[13];
 }
 
-/// V_i sum_j V_j (T_ij - T_ji), which is V_i sum_j V_j [S sigma + omega (A_i K_i^-1 + A_j K_j^-1)] zeta/|zeta|^2.
-Vector3 internal_force(const Model& model, const std::vector<PointKinematics>& points, std::size_t i,
-                       const FamilyView& family, const Workspace& w)
+/// omega V_i V_j (A_i K_i^-1 + A_j K_j^-1) zeta/|zeta|^2 of the bonds that the point holds.
+void Evaluator::add_moments(std::size_t point, BondForces& forces)
 {
-    Pack force[3] = {0.0, 0.0, 0.0};
-    const std::array<double, 9> own = components(points[i].moment);
-    for (std::size_t p = 0; p < family.packs; ++p) {
-        const BondGeometry g = geometry(w, p * pack_width);
-        const auto other = gather_point<9>(points, family.neighbours + p * pack_width,
-                                           [](const PointKinematics& k) { return components(k.moment); });
-        const double* rows = model.at_places.data() + (family.first_pack + p) * 3 * pack_width;
-        for (std::size_t r = 0; r < 3; ++r)
-            force[r] +=
-                g.volume * (load_pack(rows + r * pack_width) +
-                            g.omega * ((own[3 * r] + other[3 * r]) * g.nx + (own[3 * r + 1] + other[3 * r + 1]) * g.ny +
-                                       (own[3 * r + 2] + other[3 * r + 2]) * g.nz));
+    const HeldBonds held = model_.held(point);
+    const double* own = second_row(point) + moment_at;
+    const double self_volume = model_.records[point].volume;
+    std::array<Pack, 3> sum{Pack(0.0), Pack(0.0), Pack(0.0)};
+    for (std::size_t p = 0; p < held.packs; ++p) {
+        const std::uint32_t* neighbours = held.neighbours + p * pack_width;
+        const auto lanes = static_cast<std::uint8_t>((1u << held.bonds_in(p)) - 1u);
+        const BondGeometry g(model_, point, neighbours, lane_mask(lanes), influence_);
+        const auto m = load_transposed<lent_values>([&](std::size_t lane) { return second_row(neighbours[lane]); });
+        const Pack weight = g.omega * g.volume * self_volume;
+        const auto along = [&](std::size_t c) {
+            return weight * ((m[c] + own[c]) * g.nx + (m[c + 1] + own[c + 1]) * g.ny + (m[c + 2] + own[c + 2]) * g.nz);
+        };
+        const std::array<Pack, 3> force{along(0), along(3), along(6)};
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += force[c];
+        forces.take_from_points(model_, model_.families[point], held, p, force);
     }
-    return model.points.volume[i] * Vector3(reduce(force[0]), reduce(force[1]), reduce(force[2]));
+    forces.give_to(point, sum);
 }
 
-/// Copies the kinematics of the parents to their images.
-void update_images(const Model& model, std::vector<PointKinematics>& points)
+/// Calls copy(isometry, parent, image) for every image.
+template <class Copy>
+void Evaluator::update_images(Copy&& copy)
 {
-    const std::size_t n = model.size();
-    const std::vector<Image>& images = model.families.images();
+    const std::vector<Image>& images = model_.families.images();
 #pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < images.size(); ++m) {
-        const Isometry& isometry = model.isometries[images[m].isometry];
-        const PointKinematics& parent = points[images[m].parent];
-        PointKinematics& image = points[n + m];
-        image.sound = parent.sound;
-        image.reciprocal_weight = parent.reciprocal_weight;
-        image.gradient = in_frame_of(isometry, parent.gradient);
-        image.moment = in_frame_of(isometry, parent.moment);
+    for (std::size_t m = 0; m < images.size(); ++m)
+        copy(model_.isometries[images[m].isometry], images[m].parent, model_.size() + m);
+}
+
+void Evaluator::run()
+{
+    const Halos& halos = model_.halos;
+    bool all_active = true;
+#pragma omp parallel for schedule(dynamic, 64) reduction(&& : all_active)
+    for (std::size_t i = 0; i < model_.size(); ++i)
+        all_active = find_gradient(i) && all_active;
+    const auto lend_gradient = [&](const Isometry& isometry, std::size_t parent, std::size_t image) {
+        std::copy_n(first_row(parent), lent_values, first_row(image));
+        copy_in_frame_of(isometry, first_row(parent) + gradient_at, first_row(image) + gradient_at);
+    };
+    update_images(lend_gradient);
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::size_t i = 0; i < model_.size(); ++i) {
+        if (!all_active) {
+            first_row(i)[reciprocal_weight_at] = find_activity(i);
+            continue;
+        }
+        const FamilyView family = model_.families[i];
+        for (std::size_t p = 0; p < family.packs; ++p)
+            model_.bonds.active[family.first_pack + p] = family.lanes(p);
+        model_.inactive_bonds[i] = 0;
+        model_.free_grain[i] = 0;
     }
+    if (!all_active)
+        update_images(lend_gradient);
+    for_every_block(model_, [&](std::size_t block, OperatorSamples& samples) {
+        thread_local StressWorkspace workspace;
+        double* places = model_.at_places.data() + halos.first_place(block) * place_values;
+        std::fill(places, model_.at_places.data() + halos.first_place(block + 1) * place_values, 0.0);
+        for (std::size_t i = halos.first_point(block); i < halos.end_point(block); ++i)
+            update_stress(i, places, halos.first_point(block), workspace, samples);
+    });
+    failure_.raise(model_);
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < model_.size(); ++i)
+        collect(i);
+    update_images([&](const Isometry& isometry, std::size_t parent, std::size_t image) {
+        std::fill_n(second_row(image), lent_values, 0.0);
+        copy_in_frame_of(isometry, second_row(parent) + moment_at, second_row(image) + moment_at);
+    });
+    for_every_block(model_, [&](std::size_t block, OperatorSamples&) {
+        BondForces forces(model_, block);
+        for (std::size_t i = halos.first_point(block); i < halos.end_point(block); ++i)
+            add_moments(i, forces);
+    });
+    BondForces::hand_out(model_);
 }
 
 } // namespace
 
 void BondProjectionForceState::evaluate(Model& model, const Evaluation& evaluation) const
 {
-    const std::size_t n = model.size();
-    FirstFailure failure;
-    model.at_places.resize(model.families.packs() * 3 * pack_width);
-    std::vector<PointKinematics> points(n + model.families.images().size());
-    for_every_family(model, influence(), [&](std::size_t i, const FamilyView& family, Workspace& w) {
-        points[i] = point_kinematics(family, w);
-    });
-    update_images(model, points);
-#pragma omp parallel for schedule(dynamic, 32)
-    for (std::size_t i = 0; i < n; ++i)
-        points[i].reciprocal_weight = find_activity(model, points, i, influence());
-    update_images(model, points);
-    for_every_family(model, influence(), [&](std::size_t i, const FamilyView& family, Workspace& w) {
-        bond_gradients(model, points, i, family, w);
-        BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state.data() + model.bonds.first[i],
-                          evaluation, w.stress);
-        for (std::size_t p = 0; p < family.packs; ++p) {
-            const double* g = w.gradient.data() + p * 9 * pack_width;
-            const auto row = [&](std::size_t c) { return load_pack(g + c * pack_width); };
-            stress.begin(
-                p,
-                at_mid_step(Tensor<Pack>{row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7), row(8)},
-                            2.0 * evaluation.gradient_lag()),
-                model.bonds.active[family.first_pack + p]);
-        }
-        const MaterialStatus status = stress.update();
-        if (!status.converged)
-            failure.report(i, status);
-        Pack work = 0.0, dil = 0.0;
-        points[i].moment = stress_sums(model, points, i, family, w, stress, work, dil) * points[i].inverse_shape;
-        model.stress_work[i] = model.points.volume[i] * reduce(work);
-        model.volume_rate[i] = reduce(dil);
-    });
-    failure.raise(model);
-    update_images(model, points);
-    for_every_family(model, influence(), [&](std::size_t i, const FamilyView& family, Workspace& w) {
-        model.internal_force[i] = internal_force(model, points, i, family, w);
-    });
+    Evaluator(model, influence(), evaluation).run();
 }
 
 void BondProjectionForceState::shares(const Model& model, std::size_t point, std::span<double> shares) const
@@ -345,11 +415,8 @@ void BondProjectionForceState::shares(const Model& model, std::size_t point, std
     double total = 0.0;
     for (std::size_t b = 0; b < family.packs * pack_width; ++b) {
         const NeighbourRecord& other = model.records[family.neighbours[b]];
-        double squared = 0.0;
-        for (std::size_t c = 0; c < 3; ++c)
-            squared += (other.position[c] - self.position[c]) * (other.position[c] - self.position[c]);
         const bool active = (model.bonds.active[family.first_pack + b / pack_width] >> b % pack_width & 1u) != 0;
-        total += shares[b] = active ? influence()(squared) * other.volume : 0.0;
+        total += shares[b] = active ? influence()((other.x() - self.x()).squaredNorm()) * other.volume : 0.0;
     }
     if (total > 0.0)
         for (double& share : shares)

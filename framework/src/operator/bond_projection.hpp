@@ -27,7 +27,7 @@ public:
 
     void evaluate(Model& model, const Evaluation& evaluation) const override;
     void shares(const Model& model, std::size_t point, std::span<double> shares) const override;
-    bool symmetric_bonds() const override { return true; }
+    bool shares_bonds() const override { return true; }
 };
 
 } // namespace periporo

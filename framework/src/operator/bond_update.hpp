@@ -82,6 +82,14 @@ Tensor<Real> step_rotation(const Tensor<Real>& gradient, double time_step)
             f * (x * z - y),           f * (y * z + x),           1.0 - f * (x * x + y * y)};
 }
 
+inline Tensor<Pack> where_active(const PackMask& mask, const Tensor<Pack>& t)
+{
+    const Pack zero = 0.0;
+    return {select(mask, t.xx, zero), select(mask, t.xy, zero), select(mask, t.xz, zero),
+            select(mask, t.yx, zero), select(mask, t.yy, zero), select(mask, t.yz, zero),
+            select(mask, t.zx, zero), select(mask, t.zy, zero), select(mask, t.zz, zero)};
+}
+
 /// Buffers of one thread for the bonds of one point; they only ever grow.
 struct StressWorkspace {
     AlignedVector<double> strain;         ///< packs x 6: `advance`: D dt, else D

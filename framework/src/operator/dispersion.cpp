@@ -10,7 +10,7 @@
 
 namespace periporo {
 
-Model periodic_lattice(const LatticeMedium& medium, const std::array<int, 3>& cells)
+Model periodic_lattice(const LatticeMedium& medium, const std::array<int, 3>& cells, const ForceState& force_state)
 {
     Model model;
     model.spacing = medium.spacing;
@@ -33,7 +33,7 @@ Model periodic_lattice(const LatticeMedium& medium, const std::array<int, 3>& ce
     for (int axis = 0; axis < 3; ++axis)
         shifts.push_back(Isometry::shift(axis, medium.spacing * cells[static_cast<std::size_t>(axis)]));
     model.isometries.set_generators(shifts);
-    find_first_families(model);
+    find_first_families(model, force_state);
     return model;
 }
 
@@ -72,7 +72,7 @@ std::vector<PhaseSpeed> dispersion(const LatticeMedium& medium, const ForceState
         std::array<int, 3> box{};
         for (std::size_t axis = 0; axis < 3; ++axis)
             box[axis] = course.along[static_cast<Eigen::Index>(axis)] != 0.0 ? 2 * cells : 1;
-        Model lattice = periodic_lattice(medium, box);
+        Model lattice = periodic_lattice(medium, box, force_state);
         for (const WaveType type : {WaveType::pressure, WaveType::shear})
             for (int n = 1; n <= cells; ++n) {
                 const Vector3 k = (std::numbers::pi * n / (cells * medium.spacing)) * course.along;

@@ -22,7 +22,7 @@ struct LatticeMedium {
 };
 
 /// `cells` cells in each direction, periodic; a direction of one cell carries no variation.
-Model periodic_lattice(const LatticeMedium& medium, const std::array<int, 3>& cells);
+Model periodic_lattice(const LatticeMedium& medium, const std::array<int, 3>& cells, const ForceState& force_state);
 
 /// Angular frequency [rad/s] of the mode e cos(k.x) on a periodic lattice, from its Rayleigh quotient: exact when the
 /// mode is an eigenvector, as it is for waves along axes and diagonals polarised along or across them, and at all

@@ -79,7 +79,7 @@ public:
     virtual bool uses_sub_horizons() const { return false; }
 
     /// Do (i,j) and (j,i) carry one state? Then what their ends differ in is met half-way.
-    virtual bool symmetric_bonds() const { return false; }
+    virtual bool shares_bonds() const { return false; }
 
 private:
     Influence influence_;

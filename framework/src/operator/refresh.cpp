@@ -30,13 +30,6 @@ bool active(const BondData& bonds, std::size_t slot)
     return (bonds.active[slot / pack_width] >> slot % pack_width & 1u) != 0;
 }
 
-/// First of the rows of bond b of a point; rows are pack_width apart.
-template <class Bonds>
-auto* bond_rows(Bonds& bonds, std::size_t point, std::size_t rows, std::size_t b)
-{
-    return bonds.state.data() + bonds.first[point] + b / pack_width * rows * pack_width + b % pack_width;
-}
-
 /// For each body its rows that hold variables of the point (StateVariable::of_point).
 std::vector<std::vector<std::size_t>> point_rows(const Model& model)
 {
@@ -52,53 +45,53 @@ std::vector<std::vector<std::size_t>> point_rows(const Model& model)
 
 /// What a variable of the point begins with on a bond: the point's own value, or where (i,j) and (j,i) are one bond,
 /// the mean of its ends.
-double begun_with(const Model& model, const ForceState& force_state, std::size_t point, std::uint32_t neighbour,
-                  std::size_t row)
+double begun_with(const Model& model, std::size_t point, std::uint32_t neighbour, std::size_t row)
 {
     const double own = model.point_state[point * model.state_stride + row];
-    if (!force_state.symmetric_bonds())
+    if (!model.has_shared_bonds)
         return own;
     return 0.5 * (own + model.point_state[model.families.parent(neighbour) * model.state_stride + row]);
 }
 
+/// Calls set(point, neighbour, rows of the bond) for every bond that a point holds and every lane behind the last.
+template <class Set>
+void for_held_bonds(Model& model, std::size_t point, Set&& set)
+{
+    const HeldBonds held = model.held(point);
+    const std::size_t rows = model.rows(point);
+    for (std::size_t h = 0; h < held.packs * pack_width; ++h)
+        set(h < held.count ? held.neighbours[h] : static_cast<std::uint32_t>(point),
+            held.state + h / pack_width * rows * pack_width + h % pack_width);
+}
+
 /// Every bond takes its point variables from its point.
-void hand_out_point_variables(Model& model, const ForceState& force_state)
+void hand_out_point_variables(Model& model)
 {
     const std::vector<std::vector<std::size_t>> of_point = point_rows(model);
 #pragma omp parallel for schedule(dynamic, 64)
-    for (std::size_t i = 0; i < model.size(); ++i) {
-        const FamilyView family = model.families[i];
-        for (const std::size_t r : of_point[model.points.body[i]])
-            for (std::size_t b = 0; b < family.packs * pack_width; ++b)
-                bond_rows(model.bonds, i, model.rows(i), b)[r * pack_width] =
-                    begun_with(model, force_state, i, family.neighbours[b], r);
-    }
+    for (std::size_t i = 0; i < model.size(); ++i)
+        for_held_bonds(model, i, [&](std::uint32_t neighbour, double* bond) {
+            for (const std::size_t r : of_point[model.points.body[i]])
+                bond[r * pack_width] = begun_with(model, i, neighbour, r);
+        });
 }
 
 } // namespace
 
-void allocate_bonds(Model& model)
+void find_first_families(Model& model, const ForceState& force_state)
 {
-    const std::size_t n = model.size();
-    BondData& bonds = model.bonds;
-    bonds.first.assign(n + 1, 0);
-    for (std::size_t i = 0; i < n; ++i)
-        bonds.first[i + 1] = bonds.first[i] + model.families[i].packs * model.rows(i) * pack_width;
-    bonds.state.resize(bonds.first[n]);
-    bonds.active.resize(model.families.packs());
-    model.refresh_position = model.points.position;
-}
-
-void find_first_families(Model& model)
-{
+    model.has_sub_horizons = force_state.uses_sub_horizons();
+    model.has_shared_bonds = force_state.shares_bonds();
     model.find_families();
-    allocate_bonds(model);
+    model.allocate_bonds();
     std::fill(model.bonds.active.begin(), model.bonds.active.end(), std::uint8_t{0});
-    for (std::size_t i = 0; i < model.size(); ++i)
-        for (std::size_t b = 0; b < model.families[i].packs * pack_width; ++b)
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        const double* state = model.point_state.data() + i * model.state_stride;
+        for_held_bonds(model, i, [&](std::uint32_t, double* bond) {
             for (std::size_t r = 0; r < model.rows(i); ++r)
-                bond_rows(model.bonds, i, model.rows(i), b)[r * pack_width] =
-                    model.point_state[i * model.state_stride + r];
+                bond[r * pack_width] = state[r];
+        });
+    }
     model.update_records();
 }
 
@@ -118,10 +111,10 @@ void collect_point_variables(Model& model, const ForceState& force_state)
             double& value = model.point_state[i * model.state_stride + r];
             value = 0.0;
             for (std::size_t b = 0; b < family.count; ++b)
-                value += shares[b] * bond_rows(model.bonds, i, model.rows(i), b)[r * pack_width];
+                value += shares[b] * model.bond_state(i, b)[r * pack_width];
         }
     }
-    hand_out_point_variables(model, force_state);
+    hand_out_point_variables(model);
 }
 
 void mean_point_states(const Model& model, const ForceState& force_state, std::vector<double>& states)
@@ -143,15 +136,15 @@ void mean_point_states(const Model& model, const ForceState& force_state, std::v
             force_state.shares(model, i, shares);
             std::fill_n(state, rows, 0.0);
             for (std::size_t b = 0; b < family.count; ++b) {
-                const double* bond = bond_rows(model.bonds, i, rows, b);
+                const double* bond = model.bond_state(i, b);
                 for (std::size_t r = 0; r < rows; ++r)
                     state[r] += shares[b] * bond[r * pack_width];
             }
             for (const std::size_t r : of_point[model.points.body[i]]) {
                 double change = 0.0;
                 for (std::size_t b = 0; b < family.count; ++b)
-                    change += shares[b] * (bond_rows(model.bonds, i, rows, b)[r * pack_width] -
-                                           begun_with(model, force_state, i, family.neighbours[b], r));
+                    change += shares[b] *
+                              (model.bond_state(i, b)[r * pack_width] - begun_with(model, i, family.neighbours[b], r));
                 state[r] = model.point_state[i * model.state_stride + r] + change;
             }
         }
@@ -166,31 +159,29 @@ void refresh_families(Model& model, const ForceState& force_state)
     model.point_state.swap(states);
     const Families old_families = std::exchange(model.families, {});
     model.find_families();
-    BondData old_bonds = std::exchange(model.bonds, BondData{});
-    allocate_bonds(model);
+    const BondData old_bonds = std::exchange(model.bonds, BondData{});
+    model.allocate_bonds();
 #pragma omp parallel
     {
         std::vector<double> seen(model.state_stride);
 #pragma omp for schedule(dynamic, 64)
         for (std::size_t i = 0; i < model.size(); ++i) {
             const FamilyView before = old_families[i];
-            const FamilyView now = model.families[i];
+            const std::size_t first_before = model.has_shared_bonds ? before.lower : 0;
             const std::size_t rows = model.rows(i);
             const double* own = model.point_state.data() + i * model.state_stride;
-            std::size_t at = 0; // both families are ordered by key
-            for (std::size_t b = 0; b < now.packs * pack_width; ++b) {
-                double* bond = bond_rows(model.bonds, i, rows, b);
-                const std::uint32_t j = now.neighbours[b];
-                if (b < now.count) {
-                    while (at < before.count && old_families.key(before.neighbours[at]) < model.families.key(j))
-                        ++at;
-                    if (at < before.count && old_families.key(before.neighbours[at]) == model.families.key(j) &&
-                        active(old_bonds, before.first_pack * pack_width + at)) {
-                        const double* old = bond_rows(old_bonds, i, rows, at);
-                        for (std::size_t r = 0; r < rows; ++r)
-                            bond[r * pack_width] = old[r * pack_width];
-                        continue;
-                    }
+            std::size_t at = first_before; // both families are ordered by key
+            for_held_bonds(model, i, [&](std::uint32_t j, double* bond) {
+                while (at < before.count && old_families.key(before.neighbours[at]) < model.families.key(j))
+                    ++at;
+                if (at < before.count && old_families.key(before.neighbours[at]) == model.families.key(j) &&
+                    active(old_bonds, before.first_pack * pack_width + at)) {
+                    const std::size_t held = at - first_before;
+                    const double* old = old_bonds.state.data() + old_bonds.first[i] +
+                                        held / pack_width * rows * pack_width + held % pack_width;
+                    for (std::size_t r = 0; r < rows; ++r)
+                        bond[r * pack_width] = old[r * pack_width];
+                    return;
                 }
                 const double* other = model.point_state.data() + model.families.parent(j) * model.state_stride;
                 if (const std::uint32_t isometry = model.families.isometry(j); isometry != 0) {
@@ -199,10 +190,10 @@ void refresh_families(Model& model, const ForceState& force_state)
                 }
                 for (std::size_t r = 0; r < rows; ++r)
                     bond[r * pack_width] = 0.5 * (own[r] + other[r]);
-            }
+            });
         }
     }
-    hand_out_point_variables(model, force_state);
+    hand_out_point_variables(model);
     model.update_records();
 }
 

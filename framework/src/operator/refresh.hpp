@@ -9,8 +9,9 @@
 
 namespace periporo {
 
-/// Families of a model that has none yet; all bonds start with zero stress and initial state variables.
-void find_first_families(Model& model);
+/// Families of a model that has none yet, with what the force state asks for; all bonds start with zero stress and
+/// initial state variables.
+void find_first_families(Model& model, const ForceState& force_state);
 
 /// Families from the current positions. A bond that was active and is still there keeps its state; any other bond
 /// (i,j) takes the mean of the point states of i and j, a point state being the share-weighted mean over the active
@@ -27,9 +28,6 @@ void collect_point_variables(Model& model, const ForceState& force_state);
 /// States of all points as their bonds have them now, laid out like Model::point_state, which `states` must start from:
 /// a free grain keeps its state variables there.
 void mean_point_states(const Model& model, const ForceState& force_state, std::vector<double>& states);
-
-/// Lays out the bond data for the families of the model, values not set.
-void allocate_bonds(Model& model);
 
 /// The largest displacement of a point since the last refresh relative to the mean displacement of all [m]. Bonds have
 /// changed by at most twice as much.

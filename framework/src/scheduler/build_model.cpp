@@ -240,12 +240,12 @@ void initialize_materials(Model& model, const ForceState& force_state)
 {
     StressWorkspace workspace;
     for (std::size_t i = 0; i < model.size(); ++i) {
-        const FamilyView family = model.families[i];
-        workspace.reserve(family.packs);
-        gather_water(model, i, family.neighbours, family.packs, workspace);
+        const HeldBonds held = model.held(i);
+        workspace.reserve(held.packs);
+        gather_water(model, i, held.neighbours, held.packs, workspace);
         MaterialBatch batch;
-        batch.packs = family.packs;
-        batch.bonds = model.bonds.state.data() + model.bonds.first[i];
+        batch.packs = held.packs;
+        batch.bonds = held.state;
         batch.suction = workspace.suction.data();
         batch.saturation = workspace.saturation.data();
         model.body_of(i).material->initialize(batch, model.body_of(i).overconsolidation_ratio);
@@ -266,19 +266,17 @@ void set_initial_stress(Model& model, const ForceState& force_state, const CaseD
         const InitialStressDescription& initial = description.bodies[model.points.body[i]].initial_stress;
         if (initial.type != "geostatic")
             continue;
-        const FamilyView family = model.families[i];
-        const std::size_t rows = model.rows(i);
+        const HeldBonds held = model.held(i);
         const double unit_weight = model.points.mass[i] / model.points.volume[i] * g;
-        for (std::size_t b = 0; b < family.count; ++b) {
-            const NeighbourRecord& other = model.records[family.neighbours[b]];
+        for (std::size_t h = 0; h < held.count; ++h) {
+            const NeighbourRecord& other = model.records[held.neighbours[h]];
             const Vector3 middle = 0.5 * (model.points.position[i] + other.x());
             const double depth = std::max(0.0, top[model.points.body[i]] - middle.dot(up));
             const double vertical = -unit_weight * depth - model.points.saturation[i] * model.points.suction[i];
             const double lateral = initial.lateral_coefficient * vertical;
             const Eigen::Matrix3d stress =
                 lateral * Eigen::Matrix3d::Identity() + (vertical - lateral) * up * up.transpose();
-            double* bond =
-                model.bonds.state.data() + model.bonds.first[i] + b / pack_width * rows * pack_width + b % pack_width;
+            double* bond = held.state + h / pack_width * model.rows(i) * pack_width + h % pack_width;
             const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
                                           stress(0, 1), stress(1, 2), stress(0, 2)};
             for (std::size_t c = 0; c < 6; ++c)

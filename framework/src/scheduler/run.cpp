@@ -59,8 +59,7 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     model.isometries.set_generators(image_generators(description, description.stages.front()));
     const auto force_state = make_force_state(description.operators.force_state,
                                               Influence::by_name(description.operators.influence, model.horizon));
-    model.needs_sub_horizons = force_state->uses_sub_horizons();
-    find_first_families(model);
+    find_first_families(model, *force_state);
     FrequencyEstimate frequency;
     const StableStep stable = stable_step(model, *force_state, ContactForces(std::move(built.contacts)), frequency, 40,
                                           description.time.safety, true);

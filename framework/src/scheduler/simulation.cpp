@@ -48,7 +48,6 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
 {
     BuiltModel built = build_model(description, registry);
     model_ = std::move(built.model);
-    model_.needs_sub_horizons = force_state_->uses_sub_horizons();
     contact_ = ContactForces(std::move(built.contacts));
     for (const std::string& remark : built.remarks)
         log_->info(remark);
@@ -109,9 +108,10 @@ void Simulation::restore()
                    options_.directory.string());
         return;
     }
-    read_checkpoint(
-        file, {model_, contact_, dynamics_, frequency_, at_}, description_.resolved, settings_of(description_).skin,
-        [this](std::uint64_t stage) { return image_generators(description_, description_.stages.at(stage)); });
+    read_checkpoint(file, {model_, *force_state_, contact_, dynamics_, frequency_, at_}, description_.resolved,
+                    settings_of(description_).skin, [this](std::uint64_t stage) {
+                        return image_generators(description_, description_.stages.at(stage));
+                    });
     dynamics_.hold(held_directions(model_, description_, description_.stages[at_.stage]));
     reports_ = nlohmann::json::parse(at_.stage_reports);
     resuming_ = true;
@@ -127,7 +127,7 @@ void Simulation::begin_stage()
     at_.stage_start = at_.time;
     model_.isometries.set_generators(image_generators(description_, stage));
     if (at_.stage == 0) {
-        find_first_families(model_);
+        find_first_families(model_, *force_state_);
         set_initial_stress(model_, *force_state_, description_);
         log_->info("{} points, {} bonds ({:.1f} a point), {:.1f} MB ({:.1f} kB a point)", model_.size(),
                    model_.families.bonds(),
@@ -302,8 +302,8 @@ void Simulation::checkpoint()
     RunPosition position = at_;
     position.wall_seconds = wall_seconds();
     position.stage_reports = reports_.dump();
-    write_checkpoint(options_.directory / "checkpoint.h5", {model_, contact_, dynamics_, frequency_, position},
-                     description_.resolved);
+    write_checkpoint(options_.directory / "checkpoint.h5",
+                     {model_, *force_state_, contact_, dynamics_, frequency_, position}, description_.resolved);
     last_checkpoint_ = std::chrono::steady_clock::now();
 }
 

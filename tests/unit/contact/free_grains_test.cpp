@@ -19,7 +19,8 @@ struct Grains {
     explicit Grains(const std::vector<double>& places)
         : model(specimens::from_positions(positions(places), spacing)), contact({{short_range(), {0, 0}}})
     {
-        find_first_families(model);
+        find_first_families(model,
+                            *make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon)));
     }
 
     static std::vector<Vector3> positions(const std::vector<double>& places)

@@ -162,7 +162,7 @@ TEST_CASE("a lone point, a pair, a row and a sheet have finite evaluations and n
             CAPTURE(influence);
             CAPTURE(positions.size());
             Model model = from_positions(positions, dx);
-            find_first_families(model);
+            find_first_families(model, force);
             set_velocity(model, [](const Vector3& x) { return Vector3(x.y() * 3.0, -x.x(), 7.0 * x.x()); });
             force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, 1e-4});
             for (std::size_t i = 0; i < model.size(); ++i) {

@@ -41,7 +41,7 @@ Model with_memory(const ForceState& force)
     Model model = from_positions(jittered(lattice(5, 5, 5, dx), dx, 0.2), dx);
     model.bodies[0].material = std::make_shared<LawMaterial<HookeWithMemory>>(Parameters{});
     model.allocate();
-    find_first_families(model);
+    find_first_families(model, force);
     model.update_records();
     force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0}); // finds the active bonds
     std::mt19937 generator(5);
@@ -81,7 +81,7 @@ TEST_CASE("a uniformly stressed block keeps its stress, turned with it, through 
         CAPTURE(state);
         CAPTURE(influence);
         Model model = from_positions(jittered(lattice(6, 6, 6, dx), dx, 0.1), dx);
-        find_first_families(model);
+        find_first_families(model, force);
         set_stress(model, [&](std::size_t, std::size_t) { return initial; });
         model.update_records();
         force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0}); // finds the active bonds
@@ -113,7 +113,7 @@ TEST_CASE("a bond that stays keeps its own stress, a new bond takes the mean of 
 {
     Model model = from_positions(lattice(6, 6, 6, dx), dx);
     const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
-    find_first_families(model);
+    find_first_families(model, *force);
     set_stress(model, [](std::size_t i, std::size_t b) {
         return SymmetricTensor<double>::isotropic(1000.0 * static_cast<double>(i) + static_cast<double>(b));
     });
@@ -155,7 +155,7 @@ TEST_CASE("the mean state of a point weighs its bonds by their shares")
         CAPTURE(state);
         CAPTURE(influence);
         Model model = from_positions(jittered(lattice(5, 5, 5, dx), dx, 0.2), dx);
-        find_first_families(model);
+        find_first_families(model, force);
         std::mt19937 generator(11);
         std::uniform_real_distribution<double> value(-1.0, 1.0);
         set_stress(model,

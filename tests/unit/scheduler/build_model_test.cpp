@@ -96,9 +96,9 @@ TEST_CASE("geostatic stress of a bond is that at the depth of its middle, with K
     BuiltModel made = built(description);
     Model& model = made.model;
     model.isometries.set_generators(image_generators(description, description.stages[0]));
-    find_first_families(model);
-    set_initial_stress(model, *make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon)),
-                       description);
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    find_first_families(model, *force);
+    set_initial_stress(model, *force, description);
     const double density = model.points.mass[0] / model.points.volume[0];
     for (const std::size_t i : {std::size_t{0}, std::size_t{600}, std::size_t{1199}})
         for (std::size_t b = 0; b < model.families[i].count; ++b) {

@@ -20,8 +20,8 @@ std::optional<VerticalStress> profile(const std::function<double(double)>& at, d
 {
     Model model = from_positions(lattice(4, 4, rows, dx), dx);
     model.gravity = {0.0, 0.0, -gravity};
-    find_first_families(model);
     const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    find_first_families(model, *force);
     set_stress(model, [&](std::size_t i, std::size_t) {
         SymmetricTensor<double> s;
         s.zz = at(model.points.position[i].z());

@@ -33,7 +33,7 @@ Model two_grains(double gap)
     model.bodies.push_back(model.bodies.front());
     model.points.body[1] = 1;
     model.points.mass[1] *= 3.0;
-    find_first_families(model);
+    find_first_families(model, *make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon)));
     return model;
 }
 
@@ -65,9 +65,9 @@ double travel_on_incline(double angle, double friction, double time, double& spe
     // where the normal force balances its part of the weight
     model.points.position[0] = normal * (law->cutoff() - weight * std::cos(angle) / stiffness);
     model.gravity = Vector3(0.0, 0.0, -g);
-    find_first_families(model);
     ContactForces contact({{law, {0}}});
     const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+    find_first_families(model, *force);
     Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
     const Vector3 start = model.points.position[0];
     dynamics.start();
@@ -144,7 +144,7 @@ TEST_CASE("a grain that slips over six others at once is stopped within a step a
         model.points.body[i] = 1;
         model.points.mass[i] *= 1e6;
     }
-    find_first_families(model);
+    find_first_families(model, *make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon)));
     ContactForces contact = short_range(1e5, 1e3, model); // friction without a practical limit
     contact.find_candidates(model, 0.0);
     const double slip = 0.1, dt = 1e-5;
@@ -184,11 +184,11 @@ TEST_CASE("a grain that comes loose among others starts without contact force")
 {
     // a compact cluster of three points: too few for a sub-horizon, so all are free, closer than the cut-off 0.8 dx
     Model model = from_positions({{0, 0, 0}, {0.5 * dx, 0, 0}, {0, 0.45 * dx, 0}}, dx);
-    find_first_families(model);
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+    find_first_families(model, *force);
     const auto law = std::make_shared<ShortRange>(law_parameters(500.0, 0.0));
     law->scale({model.spacing, model.horizon});
     ContactForces contact({{law, {0, 0}}});
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
     Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
     dynamics.start();
     dynamics.open_ledger();

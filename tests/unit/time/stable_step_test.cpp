@@ -38,7 +38,7 @@ struct BlockInHighestMode {
         : model(from_positions(lattice(5, 5, 5, dx), dx)),
           force(make_force_state("energy_conjugate", Influence::by_name(influence, model.horizon)))
     {
-        find_first_families(model);
+        find_first_families(model, *force);
         FrequencyEstimate estimate;
         omega = estimate.update(model, *force, 40);
         double largest = 0.0;
@@ -64,8 +64,8 @@ TEST_CASE("the largest frequency of the dense operator is found, from below")
     for (const char* state : {"energy_conjugate", "bond_projection"}) {
         CAPTURE(state);
         Model model = from_positions(jittered(lattice(4, 4, 5, dx), dx, 0.1), dx);
-        find_first_families(model);
         const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
+        find_first_families(model, *force);
         const double exact = dense_frequency(model, *force);
         FrequencyEstimate estimate;
         const double found = estimate.update(model, *force, 20);
@@ -78,8 +78,8 @@ TEST_CASE("a stiff place that arises away from the last highest mode is found wi
 {
     // 768 points; the highest mode is in the bulk. Then one corner point becomes light, and its mode the highest.
     Model model = from_positions(jittered(lattice(8, 8, 12, dx), dx, 0.1), dx);
-    find_first_families(model);
     const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    find_first_families(model, *force);
     FrequencyEstimate estimate;
     const double before = estimate.update(model, *force, 40);
     model.points.mass[0] /= 8.0;
