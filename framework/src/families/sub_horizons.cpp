@@ -77,13 +77,13 @@ public:
     /// The cheapest way to the sum over the sub-horizon of bond b.
     SubHorizonView::Step step(std::size_t b) const
     {
-        std::uint32_t members = 0;
-        for (std::size_t w = 0; w < words_; ++w)
-            members += static_cast<std::uint32_t>(std::popcount(word(w, b)));
-        const auto all = static_cast<std::uint32_t>(count_);
-        const bool from_all = all - members < members;
-        const std::uint64_t best = from_all ? all - members : members;
-        const std::uint64_t from = from_all ? count_ + 1 : count_;
+        std::uint64_t members = 0, others = 0;
+        for (std::size_t w = 0; w < words_; ++w) {
+            members += visits(word(w, b));
+            others += visits(full(w) & ~word(w, b));
+        }
+        const std::uint64_t best = std::min(members, others);
+        const std::uint64_t from = others < members ? count_ + 1 : count_;
 
         const std::size_t first = b > window ? b - window : 0;
         std::uint64_t enter[window] = {}, leave[window] = {}; // as wide as the words, so that one loop is one vector
@@ -92,8 +92,8 @@ public:
             const std::uint64_t* earlier = bits_.data() + w * count_ + first;
 #pragma GCC ivdep
             for (std::size_t a = 0; a < b - first; ++a) {
-                enter[a] += static_cast<std::uint64_t>(std::popcount(own & ~earlier[a]));
-                leave[a] += static_cast<std::uint64_t>(std::popcount(earlier[a] & ~own));
+                enter[a] += visits(own & ~earlier[a]);
+                leave[a] += visits(earlier[a] & ~own);
             }
         }
         std::uint64_t cheapest = best << 16 | from; // pairs above, where from below
@@ -110,10 +110,10 @@ public:
         Member* leave = members + step.pairs;
         Member* end = leave + step.pairs;
         for (std::size_t w = 0; w < words_; ++w)
-            enter = write_bits(word(w, b) & ~before(w, step), w * word_bits, enter);
+            enter = write_word(word(w, b) & ~before(w, step), w, enter);
         std::fill(enter, std::max(enter, leave), static_cast<Member>(count_));
         for (std::size_t w = 0; w < words_; ++w)
-            leave = write_bits(before(w, step) & ~word(w, b), w * word_bits, leave);
+            leave = write_word(before(w, step) & ~word(w, b), w, leave);
         std::fill(leave, std::max(leave, end), static_cast<Member>(count_));
         return end;
     }
@@ -134,19 +134,36 @@ private:
         return step.from < count_ ? word(w, step.from) : step.from == count_ ? 0 : full(w);
     }
 
-    /// Writes the numbers of the set bits of a word, eight places at a time, and returns the place behind the last.
+    /// The lower bits of twins.
+    static std::uint64_t twins(std::uint64_t bits) { return bits & bits >> 1 & 0x5555555555555555u; }
+    /// How many visits the members of a word take.
+    static std::uint64_t visits(std::uint64_t bits)
+    {
+        return static_cast<std::uint64_t>(std::popcount(bits) - std::popcount(twins(bits)));
+    }
+
     template <class Member>
+    Member* write_word(std::uint64_t bits, std::size_t w, Member* out) const
+    {
+        const std::uint64_t lower = twins(bits);
+        out = write_bits<1>(bits & ~(lower | lower << 1), w * word_bits, out);
+        return write_bits<2>(lower, SubHorizonView{count_}.first_twins() + w * word_bits / 2, out);
+    }
+
+    /// Writes base + n/step of every bit n that is set, eight places at a time, and returns the place behind the last.
+    /// Only multiples of `step` are set.
+    template <std::size_t step, class Member>
     static Member* write_bits(std::uint64_t bits, std::size_t base, Member* out)
     {
         for (std::size_t byte = 0; byte < 8; ++byte, bits >>= 8) {
             const std::array<std::uint8_t, 8>& set = bits_of_byte[bits & 0xff];
-            if constexpr (sizeof(Member) == 1) { // eight additions in one, none of them carries
-                const std::uint64_t places = std::bit_cast<std::uint64_t>(set) +
-                                             0x0101010101010101u * static_cast<std::uint64_t>(base + 8 * byte);
+            if constexpr (sizeof(Member) == 1) { // eight quotients and additions in one, none of them carries
+                const std::uint64_t places = std::bit_cast<std::uint64_t>(set) / step +
+                                             0x0101010101010101u * static_cast<std::uint64_t>(base + 8 / step * byte);
                 std::memcpy(out, &places, sizeof(places));
             } else {
                 for (std::size_t n = 0; n < 8; ++n)
-                    out[n] = static_cast<Member>(base + 8 * byte + set[n]);
+                    out[n] = static_cast<Member>(base + (8 * byte + set[n]) / step);
             }
             out += std::popcount(bits & 0xff);
         }

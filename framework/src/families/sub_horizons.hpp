@@ -15,19 +15,23 @@ namespace periporo {
 /// The sub-horizons of one point's bonds. The sum of a quantity over the sub-horizon of bond b is the sum over that of
 /// an earlier bond, plus the members that enter, minus those that leave. Neighbours that lie near each other share most
 /// of their members: a bulk point of a lattice at delta = 3.015 dx has 6,764 members in its 122 sub-horizons, and its
-/// sums follow with 1,600 pairs of an addition and a subtraction.
+/// sums follow with some 1,300 pairs of an addition and a subtraction. Twins, members 2m and 2m + 1, lie side by side on
+/// the space-filling curve and mostly come and go together: they count as one.
 struct SubHorizonView {
     struct Step {
         std::uint16_t from;  ///< an earlier bond, or count: start from nothing, or count + 1: from the whole family
-        std::uint16_t pairs; ///< as many members enter as leave; `count` stands for no member
+        std::uint16_t pairs; ///< as many enter as leave
     };
     std::size_t count = 0;       ///< bonds
     const Step* steps = nullptr; ///< one a bond
-    /// For each bond `pairs` members that enter, then `pairs` that leave; two bytes a member if wide().
+    /// For each bond `pairs` that enter, then `pairs` that leave: member m < count, nobody (count), or the twins 2m and
+    /// 2m + 1 (first_twins() + m). Two bytes each if wide().
     const std::uint8_t* members = nullptr;
 
-    /// Do members need two bytes?
-    bool wide() const { return count > 254; }
+    std::size_t twins() const { return count / 2; }
+    std::size_t first_twins() const { return count + 1; }
+    /// Do their numbers need two bytes?
+    bool wide() const { return first_twins() + twins() > 256; }
 
     /// Calls visit(members), with the members as std::uint8_t or std::uint16_t, as they are kept.
     template <class Visit>

@@ -11,11 +11,10 @@
 
 namespace periporo {
 
-/// Rows of `values` doubles, one for each bond of a point and three more, and a column of one double each if `tail`.
+/// Rows of `values` doubles, one for each bond of a point and more, and a column of one double each if `tail`.
 template <std::size_t values, bool tail>
 struct BondRows {
     static_assert(values % pack_width == 0);
-    static constexpr std::size_t further_rows = 3;
 
     AlignedVector<double> rows;
     AlignedVector<double> column;
@@ -23,7 +22,7 @@ struct BondRows {
     /// Room for so many packs of bonds.
     void reserve(std::size_t packs)
     {
-        const std::size_t count = packs * pack_width + further_rows;
+        const std::size_t count = 3 * packs * pack_width / 2 + 3; // nobody, the twins and the whole family too
         if (rows.size() >= count * values)
             return;
         rows.resize(count * values);
@@ -34,9 +33,21 @@ struct BondRows {
     const double* row(std::size_t bond) const { return rows.data() + bond * values; }
 };
 
+/// What a column needs before its sums: nobody, the twins and the whole family.
+inline void prepare_column(const SubHorizonView& sub_horizons, double* feature, double* sum)
+{
+    const std::size_t count = sub_horizons.count;
+    feature[count] = 0.0;
+    double all = feature[2 * sub_horizons.twins()];
+    for (std::size_t m = 0; m < sub_horizons.twins(); ++m)
+        all += feature[sub_horizons.first_twins() + m] = feature[2 * m] + feature[2 * m + 1];
+    sum[count] = 0.0;
+    sum[count + 1] = all;
+}
+
 /// sums[b] = sum over the members k of the sub-horizon of bond b of features[k], for every bond of the point and
-/// every value of a row; the rows of lanes without a bond are zero. Vectors lie along a row. Row `count` of `features`
-/// is used up.
+/// every value of a row; the rows of lanes without a bond are zero. Vectors lie along a row. Rows of `features` behind the
+/// last bond are used up.
 template <std::size_t values, bool tail>
 void sum_sub_horizons(const SubHorizonView& sub_horizons, BondRows<values, tail>& features,
                       BondRows<values, tail>& sums)
@@ -45,23 +56,21 @@ void sum_sub_horizons(const SubHorizonView& sub_horizons, BondRows<values, tail>
     const std::size_t count = sub_horizons.count;
     std::fill_n(features.row(count), values, 0.0);
     std::fill_n(sums.row(count), values, 0.0);
+    const std::size_t twins = sub_horizons.twins();
     std::array<Pack, packs> all;
-    for (Pack& sum : all)
-        sum = 0.0;
-    double all_tail = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-        for (std::size_t v = 0; v < packs; ++v)
-            all[v] += load_pack(features.row(k) + v * pack_width);
-        if constexpr (tail)
-            all_tail += features.column[k];
-    }
+    for (std::size_t v = 0; v < packs; ++v) // the last member, when it has no twin
+        all[v] = load_pack(features.row(2 * twins) + v * pack_width);
+    for (std::size_t m = 0; m < twins; ++m)
+        for (std::size_t v = 0; v < packs; ++v) {
+            const Pack both = load_pack(features.row(2 * m) + v * pack_width) +
+                              load_pack(features.row(2 * m + 1) + v * pack_width);
+            store_pack(both, features.row(sub_horizons.first_twins() + m) + v * pack_width);
+            all[v] += both;
+        }
     for (std::size_t v = 0; v < packs; ++v)
         store_pack(all[v], sums.row(count + 1) + v * pack_width);
-    if constexpr (tail) {
-        features.column[count] = 0.0;
-        sums.column[count] = 0.0;
-        sums.column[count + 1] = all_tail;
-    }
+    if constexpr (tail)
+        prepare_column(sub_horizons, features.column.data(), sums.column.data());
     const double* feature = features.rows.data();
     double* const sum = sums.rows.data();
     const double* feature_tail = features.column.data();
@@ -111,11 +120,9 @@ inline void sum_sub_horizons(const SubHorizonView& sub_horizons, AlignedVector<d
                              AlignedVector<double>& sums)
 {
     const std::size_t count = sub_horizons.count;
-    values.resize(count + 1);
-    values[count] = 0.0;
-    sums.assign(count + 2, 0.0);
-    for (std::size_t k = 0; k < count; ++k)
-        sums[count + 1] += values[k];
+    values.resize(sub_horizons.first_twins() + sub_horizons.twins());
+    sums.resize(count + 2);
+    prepare_column(sub_horizons, values.data(), sums.data());
     sub_horizons.with_members([&](auto* member) {
         for (std::size_t b = 0; b < count; ++b) {
             const SubHorizonView::Step step = sub_horizons.steps[b];

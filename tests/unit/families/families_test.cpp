@@ -34,10 +34,17 @@ std::vector<std::vector<int>> membership(const SubHorizonView& view)
         for (std::size_t b = 0; b < view.count; ++b) {
             REQUIRE((view.steps[b].from < b || view.steps[b].from >= view.count));
             counts[b] = counts[view.steps[b].from];
-            for (std::size_t m = 0; m < view.steps[b].pairs; ++m)
-                ++counts[b][*member++];
-            for (std::size_t m = 0; m < view.steps[b].pairs; ++m)
-                --counts[b][*member++];
+            for (const int sign : {1, -1})
+                for (std::size_t m = 0; m < view.steps[b].pairs; ++m) {
+                    const std::size_t number = *member++;
+                    REQUIRE(number < view.first_twins() + view.twins());
+                    if (number < view.first_twins()) {
+                        counts[b][number] += sign;
+                    } else {
+                        counts[b][2 * (number - view.first_twins())] += sign;
+                        counts[b][2 * (number - view.first_twins()) + 1] += sign;
+                    }
+                }
         }
     });
     counts.resize(view.count);
