@@ -34,7 +34,8 @@ double arithmetic(int threads)
         {
             const Pack factor = 1.0 - 1e-9 * omp_get_thread_num();
             const Pack term = 1e-9;
-            Pack a0 = 1.0, a1 = 1.0, a2 = 1.0, a3 = 1.0, a4 = 1.0, a5 = 1.0, a6 = 1.0, a7 = 1.0, a8 = 1.0, a9 = 1.0;
+            // different chains, or the compiler would make one of them
+            Pack a0 = 1.0, a1 = 1.1, a2 = 1.2, a3 = 1.3, a4 = 1.4, a5 = 1.5, a6 = 1.6, a7 = 1.7, a8 = 1.8, a9 = 1.9;
             for (long round = 0; round < rounds; ++round) {
                 a0 = a0 * factor + term, a1 = a1 * factor + term, a2 = a2 * factor + term, a3 = a3 * factor + term;
                 a4 = a4 * factor + term, a5 = a5 * factor + term, a6 = a6 * factor + term, a7 = a7 * factor + term;

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
+#ifdef __AVX512VBMI2__
+#include <immintrin.h>
+#endif
 
 namespace periporo {
 namespace {
@@ -19,16 +21,15 @@ constexpr std::size_t chunk = 64;
 constexpr std::size_t window = 32;
 constexpr std::size_t word_bits = 64;
 
-/// The numbers of the bits that are set in a byte.
-constexpr auto bits_of_byte = [] {
-    std::array<std::array<std::uint8_t, 8>, 256> table{};
-    for (std::size_t byte = 0; byte < 256; ++byte)
-        for (std::uint8_t bit = 0, at = 0; bit < 8; ++bit)
-            if (byte >> bit & 1u)
-                table[byte][at++] = bit;
-    return table;
+/// n/step for every bit n of a word.
+template <std::size_t step>
+constexpr auto numbers_of_bits = [] {
+    std::array<std::uint8_t, word_bits> numbers{};
+    for (std::size_t bit = 0; bit < word_bits; ++bit)
+        numbers[bit] = static_cast<std::uint8_t>(bit / step);
+    return numbers;
 }();
-constexpr std::size_t slack = 8;
+constexpr std::size_t slack = word_bits; // places that may be written behind the last member
 
 /// Membership of one family as bits. Row k, bit b: are the neighbours of bonds k and b within the horizon of each
 /// other? Words of all rows lie word by word, so that rows are compared side by side.
@@ -135,7 +136,10 @@ private:
     }
 
     /// The lower bits of twins.
-    static std::uint64_t twins(std::uint64_t bits) { return bits & bits >> 1 & 0x5555555555555555u; }
+    static std::uint64_t twins(std::uint64_t bits)
+    {
+        return bits & bits >> 1 & 0x5555555555555555u;
+    }
     /// How many visits the members of a word take.
     static std::uint64_t visits(std::uint64_t bits)
     {
@@ -150,23 +154,20 @@ private:
         return write_bits<2>(lower, SubHorizonView{count_}.first_twins() + w * word_bits / 2, out);
     }
 
-    /// Writes base + n/step of every bit n that is set, eight places at a time, and returns the place behind the last.
-    /// Only multiples of `step` are set.
+    /// Writes base + n/step of every bit n that is set and returns the place behind the last.
     template <std::size_t step, class Member>
     static Member* write_bits(std::uint64_t bits, std::size_t base, Member* out)
     {
-        for (std::size_t byte = 0; byte < 8; ++byte, bits >>= 8) {
-            const std::array<std::uint8_t, 8>& set = bits_of_byte[bits & 0xff];
-            if constexpr (sizeof(Member) == 1) { // eight quotients and additions in one, none of them carries
-                const std::uint64_t places = std::bit_cast<std::uint64_t>(set) / step +
-                                             0x0101010101010101u * static_cast<std::uint64_t>(base + 8 / step * byte);
-                std::memcpy(out, &places, sizeof(places));
-            } else {
-                for (std::size_t n = 0; n < 8; ++n)
-                    out[n] = static_cast<Member>(base + (8 * byte + set[n]) / step);
-            }
-            out += std::popcount(bits & 0xff);
+#ifdef __AVX512VBMI2__
+        if constexpr (sizeof(Member) == 1) {
+            const __m512i numbers = _mm512_loadu_si512(numbers_of_bits<step>.data());
+            const __m512i set = _mm512_maskz_compress_epi8(bits, numbers);
+            _mm512_storeu_si512(out, _mm512_add_epi8(set, _mm512_set1_epi8(static_cast<char>(base))));
+            return out + std::popcount(bits);
         }
+#endif
+        for (; bits != 0; bits &= bits - 1)
+            *out++ = static_cast<Member>(base + static_cast<std::size_t>(std::countr_zero(bits)) / step);
         return out;
     }
 

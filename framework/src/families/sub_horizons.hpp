@@ -15,8 +15,8 @@ namespace periporo {
 /// The sub-horizons of one point's bonds. The sum of a quantity over the sub-horizon of bond b is the sum over that of
 /// an earlier bond, plus the members that enter, minus those that leave. Neighbours that lie near each other share most
 /// of their members: a bulk point of a lattice at delta = 3.015 dx has 6,764 members in its 122 sub-horizons, and its
-/// sums follow with some 1,300 pairs of an addition and a subtraction. Twins, members 2m and 2m + 1, lie side by side on
-/// the space-filling curve and mostly come and go together: they count as one.
+/// sums follow with some 1,300 pairs of an addition and a subtraction. Twins, members 2m and 2m + 1, lie side by side
+/// on the space-filling curve and mostly come and go together: they count as one.
 struct SubHorizonView {
     struct Step {
         std::uint16_t from;  ///< an earlier bond, or count: start from nothing, or count + 1: from the whole family

@@ -117,12 +117,12 @@ struct Model {
     std::size_t rows(std::size_t point) const { return body_of(point).rows(); }
 
     /// Bonds to images are held by both ends: their states are mirrored.
-    HeldBonds held(std::size_t point)
+    HeldBonds held(std::size_t point) const
     {
         const FamilyView family = families[point];
         const std::size_t first = has_shared_bonds ? family.lower : 0;
         return {first, family.count - first, (family.count - first + pack_width - 1) / pack_width,
-                family.neighbours + first, bonds.state.data() + bonds.first[point]};
+                family.neighbours + first, const_cast<double*>(bonds.state.data()) + bonds.first[point]};
     }
     /// First of the rows of bond b of a point, held by whichever end; rows are pack_width apart.
     const double* bond_state(std::size_t point, std::size_t b) const;

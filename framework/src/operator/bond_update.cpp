@@ -10,8 +10,8 @@ void StressWorkspace::reserve(std::size_t packs)
     if (lanes.size() >= packs)
         return;
     const std::size_t row = packs * pack_width;
-    for (AlignedVector<double>* six : {&strain, &rotated_stress})
-        six->resize(6 * row);
+    strain.resize(6 * row);
+    first_work.resize(row);
     for (AlignedVector<double>* one : {&suction, &saturation})
         one->resize(row); // zero, as dry bonds have them
     lanes.resize(packs);

@@ -92,11 +92,11 @@ inline Tensor<Pack> where_active(const PackMask& mask, const Tensor<Pack>& t)
 
 /// Buffers of one thread for the bonds of one point; they only ever grow.
 struct StressWorkspace {
-    AlignedVector<double> strain;         ///< packs x 6: `advance`: D dt, else D
-    AlignedVector<double> rotated_stress; ///< packs x 6, before the material
-    AlignedVector<double> suction;        ///< packs
-    AlignedVector<double> saturation;     ///< packs
-    AlignedVector<std::uint8_t> lanes;    ///< packs, active lanes
+    AlignedVector<double> strain;      ///< packs x 6: `advance`: D dt, else D
+    AlignedVector<double> first_work;  ///< packs; `advance`: half of old, rotated stress : D dt
+    AlignedVector<double> suction;     ///< packs
+    AlignedVector<double> saturation;  ///< packs
+    AlignedVector<std::uint8_t> lanes; ///< packs, active lanes
 
     void reserve(std::size_t packs);
 };
@@ -129,9 +129,10 @@ public:
         double* bond = state_ + pack * rows_ * pack_width;
         const SymmetricTensor<Pack> stress =
             where_active(lane_mask(active), rotated(load_symmetric(bond), step_rotation(gradient, dt)));
+        const SymmetricTensor<Pack> increment = symmetric_part(gradient) * Pack(dt);
         store_symmetric(stress, bond);
-        store_symmetric(stress, workspace_.rotated_stress.data() + pack * 6 * pack_width);
-        store_symmetric(symmetric_part(gradient) * Pack(dt), strain);
+        store_symmetric(increment, strain);
+        store_pack(0.5 * double_contraction(stress, increment), workspace_.first_work.data() + pack * pack_width);
     }
 
     /// Calls the material if stresses are to be advanced.
@@ -164,8 +165,9 @@ public:
             outcome.dilation = 0.0;
             return outcome;
         }
-        const SymmetricTensor<Pack> before = load_symmetric(workspace_.rotated_stress.data() + pack * 6 * pack_width);
-        outcome.work = select(active, double_contraction(0.5 * (stress + before) + water, strain), Pack(0.0));
+        const Pack work = load_pack(workspace_.first_work.data() + pack * pack_width) +
+                          double_contraction(0.5 * stress + water, strain);
+        outcome.work = select(active, work, Pack(0.0));
         outcome.dilation = trace(strain);
         return outcome;
     }

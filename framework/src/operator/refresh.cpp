@@ -3,6 +3,8 @@
 //
 #include "operator/refresh.hpp"
 
+#include "operator/transpose.hpp"
+
 #include "time/ordered_sum.hpp"
 
 #include <algorithm>
@@ -117,6 +119,38 @@ void collect_point_variables(Model& model, const ForceState& force_state)
     hand_out_point_variables(model);
 }
 
+namespace {
+
+/// Adds shares times rows of the bonds that the other end holds to what is zero before.
+void add_bonds_of_others(const Model& model, std::size_t point, std::span<const double> shares, double* state)
+{
+    const std::size_t rows = model.rows(point);
+    std::fill_n(state, rows, 0.0);
+    for (std::size_t b = 0; b < model.held(point).first; ++b) {
+        const double* bond = model.bond_state(point, b);
+        for (std::size_t r = 0; r < rows; ++r)
+            state[r] += shares[b] * bond[r * pack_width];
+    }
+}
+
+/// Adds shares times rows of the bonds that the point holds.
+void add_held_bonds(const Model& model, std::size_t point, std::span<const double> shares, double* state)
+{
+    const HeldBonds held = model.held(point);
+    const std::size_t rows = model.rows(point);
+    for (std::size_t r = 0; r < rows; ++r) {
+        Pack sum = 0.0;
+        for (std::size_t p = 0; p < held.packs; ++p) {
+            alignas(64) double lanes[pack_width] = {};
+            std::copy_n(shares.data() + held.first + p * pack_width, held.bonds_in(p), lanes);
+            sum += load_pack(lanes) * load_pack(held.state + (p * rows + r) * pack_width);
+        }
+        state[r] += reduce(sum);
+    }
+}
+
+} // namespace
+
 void mean_point_states(const Model& model, const ForceState& force_state, std::vector<double>& states)
 {
     const std::vector<std::vector<std::size_t>> of_point = point_rows(model);
@@ -131,15 +165,10 @@ void mean_point_states(const Model& model, const ForceState& force_state, std::v
                 continue;
             }
             const FamilyView family = model.families[i];
-            const std::size_t rows = model.rows(i);
             shares.resize(family.packs * pack_width);
             force_state.shares(model, i, shares);
-            std::fill_n(state, rows, 0.0);
-            for (std::size_t b = 0; b < family.count; ++b) {
-                const double* bond = model.bond_state(i, b);
-                for (std::size_t r = 0; r < rows; ++r)
-                    state[r] += shares[b] * bond[r * pack_width];
-            }
+            add_bonds_of_others(model, i, shares, state);
+            add_held_bonds(model, i, shares, state);
             for (const std::size_t r : of_point[model.points.body[i]]) {
                 double change = 0.0;
                 for (std::size_t b = 0; b < family.count; ++b)

@@ -46,8 +46,8 @@ inline void prepare_column(const SubHorizonView& sub_horizons, double* feature, 
 }
 
 /// sums[b] = sum over the members k of the sub-horizon of bond b of features[k], for every bond of the point and
-/// every value of a row; the rows of lanes without a bond are zero. Vectors lie along a row. Rows of `features` behind the
-/// last bond are used up.
+/// every value of a row; the rows of lanes without a bond are zero. Vectors lie along a row. Rows of `features` behind
+/// the last bond are used up.
 template <std::size_t values, bool tail>
 void sum_sub_horizons(const SubHorizonView& sub_horizons, BondRows<values, tail>& features,
                       BondRows<values, tail>& sums)
@@ -62,8 +62,8 @@ void sum_sub_horizons(const SubHorizonView& sub_horizons, BondRows<values, tail>
         all[v] = load_pack(features.row(2 * twins) + v * pack_width);
     for (std::size_t m = 0; m < twins; ++m)
         for (std::size_t v = 0; v < packs; ++v) {
-            const Pack both = load_pack(features.row(2 * m) + v * pack_width) +
-                              load_pack(features.row(2 * m + 1) + v * pack_width);
+            const Pack both =
+                load_pack(features.row(2 * m) + v * pack_width) + load_pack(features.row(2 * m + 1) + v * pack_width);
             store_pack(both, features.row(sub_horizons.first_twins() + m) + v * pack_width);
             all[v] += both;
         }

@@ -3,6 +3,8 @@
 //
 #include "time/stable_step.hpp"
 
+#include "time/ordered_sum.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -29,20 +31,20 @@ using Vectors = std::vector<Vector3>;
 
 double mass_product(const Points& points, const Vectors& a, const Vectors& b)
 {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += points.mass[i] * a[i].dot(b[i]);
-    return sum;
+    return ordered_sums<1>(
+        a.size(), [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += points.mass[i] * a[i].dot(b[i]); })[0];
 }
 
 void scale(Vectors& vector, double factor)
 {
-    for (Vector3& value : vector)
-        value *= factor;
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < vector.size(); ++i)
+        vector[i] *= factor;
 }
 
 void add(Vectors& to, double factor, const Vectors& vector)
 {
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < to.size(); ++i)
         to[i] += factor * vector[i];
 }
@@ -58,15 +60,14 @@ bool normalize(const Points& points, Vectors& vector)
 }
 
 /// M^-1 K u of the elastic tangent.
-Vectors tangent(Model& model, const ForceState& force_state, const Vectors& displacement)
+void tangent(Model& model, const ForceState& force_state, const Vectors& displacement, Vectors& result)
 {
     std::copy(displacement.begin(), displacement.end(), model.points.velocity.begin());
     model.update_records();
     force_state.evaluate(model, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
-    Vectors result(model.size());
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < model.size(); ++i)
         result[i] = -model.internal_force[i] / model.points.mass[i];
-    return result;
 }
 
 } // namespace
@@ -74,33 +75,36 @@ Vectors tangent(Model& model, const ForceState& force_state, const Vectors& disp
 double FrequencyEstimate::update(Model& model, const ForceState& force_state, int iterations)
 {
     const Points& points = model.points;
-    const Vectors velocity = points.velocity;
-    Vectors start(model.size());
+    velocity_ = points.velocity;
+    basis_.resize(static_cast<std::size_t>(iterations) + 1);
+    for (Vectors& vector : basis_)
+        vector.resize(model.size());
+    // the vector to be added to the basis lies behind those that it has
+    Vectors& first = basis_.front();
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < model.size(); ++i)
-        start[i] = scattered(i);
-    normalize(points, start);
+        first[i] = scattered(i);
+    normalize(points, first);
     if (mode_.size() == model.size())
-        add(start, 1.0, mode_);
+        add(first, 1.0, mode_);
 
-    std::vector<Vectors> basis;
     Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(iterations, iterations);
     Eigen::Index size = 0;
-    while (size < iterations && normalize(points, start)) {
-        basis.push_back(start);
-        Vectors image = tangent(model, force_state, start);
+    while (size < iterations && normalize(points, basis_[static_cast<std::size_t>(size)])) {
+        Vectors& image = basis_[static_cast<std::size_t>(size) + 1];
+        tangent(model, force_state, basis_[static_cast<std::size_t>(size)], image);
         const double before = std::sqrt(mass_product(points, image, image));
         for (Eigen::Index row = 0; row <= size; ++row) {
-            projected(row, size) = mass_product(points, basis[static_cast<std::size_t>(row)], image);
-            add(image, -projected(row, size), basis[static_cast<std::size_t>(row)]);
+            projected(row, size) = mass_product(points, basis_[static_cast<std::size_t>(row)], image);
+            add(image, -projected(row, size), basis_[static_cast<std::size_t>(row)]);
         }
         const double left = std::sqrt(mass_product(points, image, image));
         ++size;
         if (size == iterations || left <= invariant * before)
             break;
         projected(size, size - 1) = left;
-        start = std::move(image);
     }
-    std::copy(velocity.begin(), velocity.end(), model.points.velocity.begin());
+    model.points.velocity = velocity_;
     model.update_records();
     if (size == 0)
         return 0.0;
@@ -111,7 +115,7 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, in
     const Eigen::VectorXd weights = solver.eigenvectors().col(highest).real();
     mode_.assign(model.size(), Vector3::Zero());
     for (Eigen::Index b = 0; b < size; ++b)
-        add(mode_, weights[b], basis[static_cast<std::size_t>(b)]);
+        add(mode_, weights[b], basis_[static_cast<std::size_t>(b)]);
     normalize(points, mode_);
     return std::sqrt(std::max(solver.eigenvalues().real()[highest], 0.0));
 }

@@ -40,6 +40,9 @@ public:
 
 private:
     std::vector<Vector3> mode_;
+    // their memory is kept from one time to the next
+    std::vector<std::vector<Vector3>> basis_;
+    std::vector<Vector3> velocity_;
 };
 
 /// step = min(safety * limit, 1.5 dx/c_p) with the limit of a damped oscillator at omega^2 + omega_contact^2, which
