@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <atomic>
 
 namespace periporo {
 namespace {
@@ -355,10 +355,15 @@ void Evaluator::update_images(Copy&& copy)
 void Evaluator::run()
 {
     const Halos& halos = model_.halos;
-    bool all_active = true;
-#pragma omp parallel for schedule(dynamic, 64) reduction(&& : all_active)
-    for (std::size_t i = 0; i < model_.size(); ++i)
-        all_active = find_gradient(i) && all_active;
+    std::atomic<bool> all_active = true;
+    for_every_block(model_, [&](std::size_t block, OperatorSamples& samples) {
+        for (std::size_t i = halos.first_point(block); i < halos.end_point(block); ++i) {
+            SampledTimes times(samples, i);
+            if (!find_gradient(i))
+                all_active.store(false, std::memory_order_relaxed);
+            times.end_of(&OperatorSamples::kinematics);
+        }
+    });
     const auto lend_gradient = [&](const Isometry& isometry, std::size_t parent, std::size_t image) {
         std::copy_n(first_row(parent), lent_values, first_row(image));
         copy_in_frame_of(isometry, first_row(parent) + gradient_at, first_row(image) + gradient_at);
@@ -393,10 +398,13 @@ void Evaluator::run()
         std::fill_n(second_row(image), lent_values, 0.0);
         copy_in_frame_of(isometry, second_row(parent) + moment_at, second_row(image) + moment_at);
     });
-    for_every_block(model_, [&](std::size_t block, OperatorSamples&) {
+    for_every_block(model_, [&](std::size_t block, OperatorSamples& samples) {
         BondForces forces(model_, block);
-        for (std::size_t i = halos.first_point(block); i < halos.end_point(block); ++i)
+        for (std::size_t i = halos.first_point(block); i < halos.end_point(block); ++i) {
+            SampledTimes times(samples, i);
             add_moments(i, forces);
+            times.end_of(&OperatorSamples::force);
+        }
     });
     BondForces::hand_out(model_);
 }

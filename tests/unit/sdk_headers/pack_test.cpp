@@ -114,3 +114,46 @@ TEST_CASE("lane_bits sets bit l for lane l")
         CHECK(lane_bits(counted() == Pack(static_cast<double>(chosen))) == (1u << chosen));
     CHECK(lane_bits(counted() < Pack(0.0)) == 0u);
 }
+
+TEST_CASE("what is done to a pair of packs is done to each of them")
+{
+    std::mt19937_64 engine(3);
+    const PackPair a(random_pack(engine, 0.5, 2.0), random_pack(engine, 0.5, 2.0));
+    const PackPair b(random_pack(engine, 0.5, 2.0), random_pack(engine, 0.5, 2.0));
+    const auto same = [&](auto&& operation) {
+        const PackPair both = operation(a, b);
+        const Pack first = operation(a.first, b.first);
+        const Pack second = operation(a.second, b.second);
+        return all(both.first == first) && all(both.second == second);
+    };
+    CHECK(same([](auto x, auto y) { return x + y; }));
+    CHECK(same([](auto x, auto y) { return x - 2.0 * y; }));
+    CHECK(same([](auto x, auto y) { return -x * y; }));
+    CHECK(same([](auto x, auto y) { return 1.0 / x / y; }));
+    CHECK(same([](auto x, auto y) { return square_root(x) + exponential(y); }));
+    CHECK(same([](auto x, auto y) { return minimum(x, y) + 3.0 * maximum(x, y); }));
+    CHECK(same([](auto x, auto y) { return absolute(x - y) + logarithm(x); }));
+    CHECK(same([](auto x, auto y) {
+        x += y;
+        x *= y;
+        x -= 1.0;
+        x /= y;
+        return x;
+    }));
+    CHECK(same([](auto x, auto y) { return select(x < y || x == y, x, y); }));
+    CHECK(same([](auto x, auto y) { return select(!(x >= y) && x <= 1.5, x, y); }));
+    CHECK(same([](auto x, auto y) { return select(x > y && x != y, x, y); }));
+    for (std::size_t lane = 0; lane < pack_width; ++lane) {
+        CHECK(lane_of(a, lane) == a.first[lane]);
+        CHECK(lane_of(a, pack_width + lane) == a.second[lane]);
+    }
+}
+
+TEST_CASE("any and all look at both packs of a pair")
+{
+    const PackPair pair(Pack(1.0), counted());
+    CHECK(any(pair < PackPair(0.5)));
+    CHECK_FALSE(all(pair < PackPair(0.5)));
+    CHECK(all(pair >= PackPair(0.0)));
+    CHECK_FALSE(any(pair < PackPair(0.0)));
+}

@@ -17,13 +17,14 @@ from periporo_tools.benchmark import loads, machine, peer, table
 from periporo_tools.benchmark.loads import Load
 
 _ROOT = Path(__file__).resolve().parents[3]
-_CASE = _ROOT / "tests/performance/soil_in_flow.toml"
-_STORED = _ROOT / "tests/performance/measured.json"
+_CASES = _ROOT / "tests/performance"
+_STORED = _CASES / "measured.json"
 _EXAMPLES = """examples:
   tools/bench                       all loads: about a quarter of an hour on two cores
   tools/bench --quick               one size, a minute or two
   tools/bench --json bench.json     the table for machines too
 """
+_ELASTIC, _SOIL = loads.MATERIALS
 _FORCE_STATES = ("energy_conjugate", "volume_weighted", "bond_projection", "unstabilized")
 
 
@@ -50,13 +51,13 @@ def _loads(options: argparse.Namespace) -> list[Load]:
     threads = [1, 2] if (os.cpu_count() or 1) > 1 else [1]
     most = threads[-1]
     if options.quick:
-        return [Load(state, "soil", t, options.edge, options.steps)
+        return [Load(state, _SOIL, t, options.edge, options.steps)
                 for state in ("energy_conjugate", "bond_projection") for t in threads]
     chosen = [Load(state, material, t, options.edge, options.steps)
-              for state in _FORCE_STATES for material in ("soil", "elastic") for t in threads]
+              for state in _FORCE_STATES for material in (_SOIL, _ELASTIC) for t in threads]
     # fewer steps than a refresh is apart, for its memory is twice that of the model
     for edge, steps in ((22, options.steps), (46, options.steps), (100, 15)):
-        chosen += [Load(state, "soil", most, edge, steps) for state in ("energy_conjugate", "bond_projection")]
+        chosen += [Load(state, _SOIL, most, edge, steps) for state in ("energy_conjugate", "bond_projection")]
     return chosen
 
 
@@ -66,12 +67,12 @@ def _measure(options: argparse.Namespace, folder: Path) -> table.Report:
     for threads in sorted({load.threads for load in chosen}):
         report.ceilings[threads] = machine.ceilings(options.build / "bin/ceilings", threads)
     for count, load in enumerate(chosen, 1):
-        found = loads.run(load, options.build / "bin/periporo", _CASE, folder / "run")
+        found = loads.run(load, options.build / "bin/periporo", _CASES, folder / "run")
         report.rows.append((load, found))
         print(f"[{count}/{len(chosen)}] {load.force_state}, {load.material}, {found.points:,} points, {load.threads}"
               f" threads: {1e-6 * found.point_steps_per_second:.3f} million point-steps/s", file=sys.stderr)
         # the peer takes turns with the loads of its size, so that both see the same moods of the machine
-        if (not options.quick and load.edge == options.edge and load.material == "elastic"
+        if (not options.quick and load.edge == options.edge and load.material == _ELASTIC
                 and load.force_state in ("energy_conjugate", "bond_projection") and peer.available()):
             style = dict(zip(("energy_conjugate", "bond_projection"), peer.STYLES))[load.force_state]
             report.peers.append(peer.run(style, load.threads, load.edge, 60, folder))

@@ -69,12 +69,12 @@ def rates(report: Report) -> str:
         lines.append([
             load.force_state, load.material, str(load.threads), f"{found.points:,}", _million(rate),
             _million(rate / load.threads), f"{1e-6 * found.bond_steps_per_second:.1f}", f"{found.bonds_per_point:.0f}",
-            f"{1e-3 * found.bytes_per_point:.1f}", f"{100 * found.flowing:.0f} %" if load.material == "soil" else "-",
+            f"{1e-3 * found.bytes_per_point:.1f}", f"{100 * found.flowing:.0f} %" if found.flowing else "-",
             f"{100 * arithmetic:.0f} %", f"{100 * bandwidth:.0f} %",
         ])
     for peer in report.peers:
         rate = peer.point_steps_per_second
-        lines.append([f"LAMMPS {peer.style}", "elastic", str(peer.threads), f"{peer.points:,}", _million(rate),
+        lines.append([f"LAMMPS {peer.style}", "linear elastic", str(peer.threads), f"{peer.points:,}", _million(rate),
                       _million(rate / peer.threads), *["-"] * 6])
     return _formatted(header, lines)
 
