@@ -180,16 +180,16 @@ void ContactForces::add_free_grains(const Model& model, const ContactAssignment&
 {
     update_grain_reach(model, assignment);
     // Points that touch a free grain, or are one.
-    std::vector<std::uint8_t> concerned(model.size(), 0);
+    concerned_.assign(model.size(), 0);
     bool some = false;
     for (std::size_t i = 0; i < model.size(); ++i) {
         if (model.free_grain[i] == 0 || model.points.body[i] != assignment.bodies[0])
             continue;
         some = true;
-        concerned[i] = 1;
+        concerned_[i] = 1;
         const FamilyView family = model.families[i];
         for (std::size_t b = 0; b < family.count; ++b)
-            concerned[model.families.parent(family.neighbours[b])] = 1;
+            concerned_[model.families.parent(family.neighbours[b])] = 1;
     }
     if (!some)
         return;
@@ -198,10 +198,10 @@ void ContactForces::add_free_grains(const Model& model, const ContactAssignment&
     const auto for_each_concerned = [&](auto&& visit) {
 #pragma omp parallel
         {
-            std::vector<std::uint32_t> partners;
+            thread_local std::vector<std::uint32_t> partners; // only ever grows
 #pragma omp for schedule(dynamic, 64)
             for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i) {
-                if (concerned[i] == 0)
+                if (concerned_[i] == 0)
                     continue;
                 partners.clear();
                 const FamilyView family = model.families[i];

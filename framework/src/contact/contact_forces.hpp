@@ -95,6 +95,7 @@ private:
     /// Contacts of each point under the assignment at hand. Friction that stops the slip of a pair within a step is
     /// divided by the larger number of its two ends: together they stop a point and never throw it back.
     std::vector<std::uint32_t> contacts_of_;
+    std::vector<std::uint8_t> concerned_; ///< 1: the point is a free grain or may touch one
     std::vector<Vector3> friction_;
     std::vector<SurfaceContact> surface_contacts_;
     std::vector<double> point_energy_;

@@ -94,7 +94,7 @@ void PointCorrespondenceForceState::evaluate(Model& model, const Evaluation& eva
     BondForces::prepare(model);
 #pragma omp parallel
     {
-        StressWorkspace workspace;
+        thread_local StressWorkspace workspace; // only ever grows
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
             BondForces forces(model, block);

@@ -161,7 +161,7 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
     BondForces::prepare(model);
 #pragma omp parallel
     {
-        Workspace w;
+        thread_local Workspace w; // only ever grows
         OperatorSamples samples;
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t block = 0; block < model.halos.blocks(); ++block) {

@@ -74,8 +74,8 @@ public:
 private:
     static constexpr int most_iterations = 200;
     /// Newton's last step starts within this distance of the root, relative to a^2, and lands within 1e-13 to 1e-11 of
-    /// it for strain steps up to 0.01, within 1e-9 for any. Of a step of a running simulation, 1e-4 of strain, the third
-    /// starts so near: it lands within 1e-14.
+    /// it for strain steps up to 0.01, within 1e-9 for any. Of a step of a running simulation, 1e-4 of strain, the
+    /// third starts so near: it lands within 1e-14.
     static constexpr double near_surface = 3e-6;
     /// The same for ln pc_bar (absolute, and relative where it is large), whose last correction is added to second
     /// order, without another exponential.
