@@ -73,6 +73,12 @@ struct BondGeometry {
     }
 };
 
+/// What a pack of held bonds is asked for again after the material.
+struct KeptBonds {
+    BondGeometry geometry;
+    Pack reciprocal_weight; ///< 1/w0 of the neighbour
+};
+
 /// Calls visit(block, samples) for every block of points, in parallel.
 template <class Visit>
 void for_every_block(Model& model, Visit&& visit)
@@ -110,8 +116,14 @@ private:
 
     bool find_gradient(std::size_t point);
     double find_activity(std::size_t point);
-    void update_stress(std::size_t point, double* places, std::size_t first_point, StressWorkspace& workspace,
-                       OperatorSamples& samples);
+    void update_stress(std::size_t point, std::size_t block, OperatorSamples& samples);
+    void begin_bonds(std::size_t point, const HeldBonds& held, BondStress& stress, std::vector<KeptBonds>& kept);
+    void add_at_ends(std::size_t point, std::size_t block, const HeldBonds& held, const BondStress& stress,
+                     const std::vector<KeptBonds>& kept);
+    double* places_of(std::size_t block)
+    {
+        return model_.at_places.data() + model_.halos.first_place(block) * place_values;
+    }
     void collect(std::size_t point);
     void add_moments(std::size_t point, BondForces& forces);
 
@@ -196,22 +208,11 @@ double Evaluator::find_activity(std::size_t point)
     return weight > 0.0 ? 1.0 / weight : 0.0;
 }
 
-/// Stress of the bonds that the point holds, and what follows from it at both their ends.
-void Evaluator::update_stress(std::size_t point, double* places, std::size_t first_point, StressWorkspace& workspace,
-                              OperatorSamples& samples)
+/// Gradients of the bonds that the point holds, on to `stress`.
+void Evaluator::begin_bonds(std::size_t point, const HeldBonds& held, BondStress& stress, std::vector<KeptBonds>& kept)
 {
-    SampledTimes times(samples, point);
-    const HeldBonds held = model_.held(point);
     const std::size_t first_pack = model_.families[point].first_pack;
-    const double* own = first_row(point);
-    const Tensor<double> own_gradient = tensor_at(own + gradient_at);
-    BondStress stress(model_, point, held.neighbours, held.packs, held.state, evaluation_, workspace);
-    struct Kept {
-        BondGeometry geometry;
-        Pack reciprocal_weight;
-    };
-    thread_local std::vector<Kept> kept; // only ever grows
-    kept.clear();
+    const Tensor<double> own_gradient = tensor_at(first_row(point) + gradient_at);
     for (std::size_t p = 0; p < held.packs; ++p) {
         const std::uint32_t* neighbours = held.neighbours + p * pack_width;
         std::uint8_t lanes = 0;
@@ -235,12 +236,16 @@ void Evaluator::update_stress(std::size_t point, double* places, std::size_t fir
         stress.begin(p, where_active(active, at_middle), lanes);
         kept.push_back({g, other[reciprocal_weight_at]});
     }
-    times.end_of(&OperatorSamples::kinematics);
-    if (const MaterialStatus status = stress.update(); !status.converged)
-        failure_.report(point, {false, held.first + status.bond, status.reason});
-    times.end_of(&OperatorSamples::material);
+}
 
+/// What the bonds that the point holds add at both their ends, to the places of the block.
+void Evaluator::add_at_ends(std::size_t point, std::size_t block, const HeldBonds& held, const BondStress& stress,
+                            const std::vector<KeptBonds>& kept)
+{
+    double* places = places_of(block);
+    const std::uint16_t* place = model_.halos.place_of_neighbours(model_.families[point].first_pack) + held.first;
     const double self_volume = model_.records[point].volume;
+    const double own_reciprocal_weight = first_row(point)[reciprocal_weight_at];
     std::array<Pack, place_values> own_sums;
     own_sums.fill(Pack(0.0));
     for (std::size_t p = 0; p < held.packs; ++p) {
@@ -249,7 +254,7 @@ void Evaluator::update_stress(std::size_t point, double* places, std::size_t fir
         const BondStress::Outcome bond = stress.end(p);
         const SymmetricTensor<Pack>& s = bond.stress;
         const Pack mutual =
-            select(active, g.omega * (kept[p].reciprocal_weight + own[reciprocal_weight_at]), Pack(0.0)); // S_ij
+            select(active, g.omega * (kept[p].reciprocal_weight + own_reciprocal_weight), Pack(0.0)); // S_ij
         const Pack tx = s.xx * g.nx + s.xy * g.ny + s.xz * g.nz;
         const Pack ty = s.xy * g.nx + s.yy * g.ny + s.yz * g.nz;
         const Pack tz = s.xz * g.nx + s.yz * g.ny + s.zz * g.nz;
@@ -260,7 +265,7 @@ void Evaluator::update_stress(std::size_t point, double* places, std::size_t fir
             half * (s.xz - tz * g.x), half * (s.yz - tz * g.y), half * (s.zz - tz * g.z)};
         const Pack product = mutual * g.volume * self_volume;
         const std::array<Pack, 3> force{product * tx, product * ty, product * tz};
-        const Pack own_share = g.omega * g.volume * own[reciprocal_weight_at];
+        const Pack own_share = g.omega * g.volume * own_reciprocal_weight;
         const Pack other_share = g.omega * self_volume * kept[p].reciprocal_weight;
         std::array<Pack, place_values> at_other;
         for (std::size_t c = 0; c < 9; ++c) {
@@ -278,19 +283,35 @@ void Evaluator::update_stress(std::size_t point, double* places, std::size_t fir
         at_other[14] = at_other[15] = 0.0;
         alignas(64) double rows[pack_width * place_values];
         store_transposed<place_values>(at_other, rows);
-        const std::uint32_t* neighbours = held.neighbours + p * pack_width;
+        const std::size_t first = p * pack_width;
         for (std::size_t lane = 0; lane < held.bonds_in(p); ++lane) {
-            if (neighbours[lane] >= model_.size())
+            if (held.neighbours[first + lane] >= model_.size())
                 continue; // an image: its parent holds the mirrored bond
-            const std::size_t b = held.first + p * pack_width + lane;
-            double* at = places + model_.halos.place_of_neighbours(first_pack)[b] * place_values;
+            double* at = places + place[first + lane] * place_values;
             for (std::size_t c = 0; c < place_values; c += pack_width)
                 store_pack(load_pack(at + c) + load_pack(rows + lane * place_values + c), at + c);
         }
     }
-    double* at = places + (point - first_point) * place_values;
+    double* at = places + (point - model_.halos.first_point(block)) * place_values;
     for (std::size_t c = 0; c < 14; ++c)
         at[c] += reduce(own_sums[c]);
+}
+
+/// Stress of the bonds that the point holds, and what follows from it at both their ends.
+void Evaluator::update_stress(std::size_t point, std::size_t block, OperatorSamples& samples)
+{
+    SampledTimes times(samples, point);
+    thread_local StressWorkspace workspace; // both only ever grow
+    thread_local std::vector<KeptBonds> kept;
+    const HeldBonds held = model_.held(point);
+    BondStress stress(model_, point, held.neighbours, held.packs, held.state, evaluation_, workspace);
+    kept.clear();
+    begin_bonds(point, held, stress, kept);
+    times.end_of(&OperatorSamples::kinematics);
+    if (const MaterialStatus status = stress.update(); !status.converged)
+        failure_.report(point, {false, held.first + status.bond, status.reason});
+    times.end_of(&OperatorSamples::material);
+    add_at_ends(point, block, held, stress, kept);
     times.end_of(&OperatorSamples::force);
 }
 
@@ -384,11 +405,9 @@ void Evaluator::run()
     if (!all_active)
         update_images(lend_gradient);
     for_every_block(model_, [&](std::size_t block, OperatorSamples& samples) {
-        thread_local StressWorkspace workspace;
-        double* places = model_.at_places.data() + halos.first_place(block) * place_values;
-        std::fill(places, model_.at_places.data() + halos.first_place(block + 1) * place_values, 0.0);
+        std::fill(places_of(block), places_of(block + 1), 0.0);
         for (std::size_t i = halos.first_point(block); i < halos.end_point(block); ++i)
-            update_stress(i, places, halos.first_point(block), workspace, samples);
+            update_stress(i, block, samples);
     });
     failure_.raise(model_);
 #pragma omp parallel for schedule(static)

@@ -143,13 +143,51 @@ std::array<Pack, 3> bond_force(const Tensor<Pack>& moment, const Workspace& w, s
             weight * (moment.zx * x + moment.zy * y + moment.zz * z)};
 }
 
-/// Sums over the bonds of a point.
-struct PointOutcome {
-    Pack work = 0.0;     ///< shares times BondStress::Outcome::work
-    Pack dilation = 0.0; ///< the same of the dilation
+/// f sigma_b K_b^-1 of every bond, as the moments of the workspace, where f is `moment_factor` times V(H_b); and what
+/// the model keeps of the point.
+/// @param share_factor the shares over V(H_b)
+void stress_moments(Model& model, std::size_t point, const FamilyView& family, const BondStress& stress,
+                    double share_factor, double moment_factor, Workspace& w)
+{
+    Pack work = 0.0;
+    Pack dilation = 0.0;
     std::uint32_t active = 0;
-    std::array<Pack, 3> force{Pack(0.0), Pack(0.0), Pack(0.0)}; ///< of the bonds, V_i V_j T_ij [N]
-};
+    for (std::size_t p = 0; p < family.packs; ++p) {
+        const BondStress::Outcome bond = stress.end(p);
+        const Pack weight = load_pack(w.weight.data() + p * pack_width);
+        work += weight * share_factor * bond.work;
+        dilation += weight * share_factor * bond.dilation;
+        active += static_cast<std::uint32_t>(std::popcount(stress.active(p)));
+        model.bonds.active[family.first_pack + p] = stress.active(p);
+        const Tensor<Pack> m =
+            full(bond.stress * (weight * moment_factor)) * load_symmetric(w.inverse_shape.data() + p * 6 * pack_width);
+        store_transposed<moment_values>({m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy},
+                                        w.moments.row(p * pack_width));
+        store_pack(m.zz, w.moments.column.data() + p * pack_width);
+    }
+    model.stress_work[point] = model.points.volume[point] * reduce(work);
+    model.volume_rate[point] = reduce(dilation);
+    model.inactive_bonds[point] = static_cast<std::uint32_t>(family.count) - active;
+    model.free_grain[point] = active == 0 ? 1 : 0;
+}
+
+/// Forces of the force states omega M zeta.
+void add_forces(const Model& model, std::size_t point, const FamilyView& family,
+                const BondRows<moment_values, true>& moments, const Workspace& w, BondForces& forces)
+{
+    std::array<Pack, 3> sum{Pack(0.0), Pack(0.0), Pack(0.0)};
+    for (std::size_t p = 0; p < family.packs; ++p) {
+        const auto m =
+            load_transposed<moment_values>([&](std::size_t lane) { return moments.row(p * pack_width + lane); });
+        const std::array<Pack, 3> force = bond_force(
+            {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], load_pack(moments.column.data() + p * pack_width)}, w, p,
+            model.records[point].volume);
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += force[c];
+        forces.take_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
+    }
+    forces.give_to(point, sum);
+}
 
 } // namespace
 
@@ -182,41 +220,11 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
                     failure.report(i, status);
                 times.end_of(&OperatorSamples::material);
 
-                PointOutcome outcome;
-                for (std::size_t p = 0; p < family.packs; ++p) {
-                    const BondStress::Outcome bond = stress.end(p);
-                    const Pack weight = load_pack(w.weight.data() + p * pack_width);
-                    const Pack share = weight * reciprocal_total;
-                    outcome.work += share * bond.work;
-                    outcome.dilation += share * bond.dilation;
-                    outcome.active += static_cast<std::uint32_t>(std::popcount(stress.active(p)));
-                    model.bonds.active[family.first_pack + p] = stress.active(p);
-                    const Pack factor = conjugate ? share : weight * (1.0 / family_sums.volume);
-                    const Tensor<Pack> m =
-                        full(bond.stress * factor) * load_symmetric(w.inverse_shape.data() + p * 6 * pack_width);
-                    store_transposed<moment_values>({m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy},
-                                                    w.moments.row(p * pack_width));
-                    store_pack(m.zz, w.moments.column.data() + p * pack_width);
-                }
-                model.stress_work[i] = model.points.volume[i] * reduce(outcome.work);
-                model.volume_rate[i] = reduce(outcome.dilation);
-                model.inactive_bonds[i] = static_cast<std::uint32_t>(family.count) - outcome.active;
-                model.free_grain[i] = outcome.active == 0 ? 1 : 0;
-
+                const double moment_factor = conjugate ? reciprocal_total : 1.0 / family_sums.volume;
+                stress_moments(model, i, family, stress, reciprocal_total, moment_factor, w);
                 if (conjugate)
                     sum_sub_horizons(model.sub_horizons[i], w.moments, w.moment_sums);
-                const BondRows<moment_values, true>& moments = conjugate ? w.moment_sums : w.moments;
-                for (std::size_t p = 0; p < family.packs; ++p) {
-                    const auto m = load_transposed<moment_values>(
-                        [&](std::size_t lane) { return moments.row(p * pack_width + lane); });
-                    const std::array<Pack, 3> force = bond_force({m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7],
-                                                                  load_pack(moments.column.data() + p * pack_width)},
-                                                                 w, p, model.records[i].volume);
-                    for (std::size_t c = 0; c < 3; ++c)
-                        outcome.force[c] += force[c];
-                    forces.take_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
-                }
-                forces.give_to(i, outcome.force);
+                add_forces(model, i, family, conjugate ? w.moment_sums : w.moments, w, forces);
                 times.end_of(&OperatorSamples::force);
             }
         }
