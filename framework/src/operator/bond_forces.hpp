@@ -37,15 +37,7 @@ public:
     /// Takes the forces of a pack of bonds, V_i V_j T_ij of the first `bonds` lanes [N], from the neighbours.
     void take_from_neighbours(std::size_t pack, std::size_t bonds, const std::array<Pack, 3>& force)
     {
-        alignas(64) double lanes[3][pack_width];
-        for (std::size_t c = 0; c < 3; ++c)
-            store_pack(force[c], lanes[c]);
-        const std::uint16_t* place = halos_.place_of_neighbours(pack);
-        for (std::size_t lane = 0; lane < bonds; ++lane) {
-            double* at = places_ + place[lane] * place_stride;
-            for (std::size_t c = 0; c < 3; ++c)
-                at[c] -= lanes[c][lane];
-        }
+        take(halos_.place_of_neighbours(pack), bonds, force, [](std::size_t) { return true; });
     }
 
     /// The same for a pack of bonds that the point holds, without those to images: their parents hold the mirrored
@@ -53,18 +45,9 @@ public:
     void take_from_points(const Model& model, const FamilyView& family, const HeldBonds& held, std::size_t pack,
                           const std::array<Pack, 3>& force)
     {
-        alignas(64) double lanes[3][pack_width];
-        for (std::size_t c = 0; c < 3; ++c)
-            store_pack(force[c], lanes[c]);
         const std::size_t first = pack * pack_width;
-        const std::uint16_t* place = halos_.place_of_neighbours(family.first_pack) + held.first + first;
-        for (std::size_t lane = 0; lane < held.bonds_in(pack); ++lane) {
-            if (held.neighbours[first + lane] >= model.size())
-                continue;
-            double* at = places_ + place[lane] * place_stride;
-            for (std::size_t c = 0; c < 3; ++c)
-                at[c] -= lanes[c][lane];
-        }
+        take(halos_.place_of_neighbours(family.first_pack) + held.first + first, held.bonds_in(pack), force,
+             [&](std::size_t lane) { return held.neighbours[first + lane] < model.size(); });
     }
 
     /// Gives the sum of the forces of its bonds to a point of the block.
@@ -80,6 +63,22 @@ public:
     static void hand_out(Model& model);
 
 private:
+    /// Takes the forces of the lanes for which concerns(lane) holds.
+    template <class Concerns>
+    void take(const std::uint16_t* place, std::size_t bonds, const std::array<Pack, 3>& force, Concerns&& concerns)
+    {
+        alignas(64) double lanes[3][pack_width];
+        for (std::size_t c = 0; c < 3; ++c)
+            store_pack(force[c], lanes[c]);
+        for (std::size_t lane = 0; lane < bonds; ++lane) {
+            if (!concerns(lane))
+                continue;
+            double* at = places_ + place[lane] * place_stride;
+            for (std::size_t c = 0; c < 3; ++c)
+                at[c] -= lanes[c][lane];
+        }
+    }
+
     static constexpr std::size_t place_stride = 4;
 
     const Halos& halos_;

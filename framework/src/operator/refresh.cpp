@@ -4,7 +4,6 @@
 #include "operator/refresh.hpp"
 
 #include "operator/transpose.hpp"
-
 #include "time/ordered_sum.hpp"
 
 #include <algorithm>
