@@ -16,6 +16,12 @@
 
 namespace periporo {
 
+/// Lane bits of the first so many lanes of a pack.
+constexpr std::uint8_t first_lanes(std::size_t count)
+{
+    return static_cast<std::uint8_t>((1u << count) - 1u);
+}
+
 /// The family of one point. Bonds lie in packs of pack_width lanes; the lanes behind the last bond name the point
 /// itself, so that whatever is gathered there is finite. Another pack_width neighbours may be read behind them, too:
 /// they name some point.
@@ -30,7 +36,7 @@ struct FamilyView {
     /// Number of bonds in a pack: pack_width but for the last.
     std::size_t bonds_in(std::size_t pack) const { return std::min(pack_width, count - pack * pack_width); }
     /// The same as lane bits.
-    std::uint8_t lanes(std::size_t pack) const { return static_cast<std::uint8_t>((1u << bonds_in(pack)) - 1u); }
+    std::uint8_t lanes(std::size_t pack) const { return first_lanes(bonds_in(pack)); }
 };
 
 /// Most bonds of a point; a lattice at delta = 3.015 dx has 122.

@@ -33,15 +33,14 @@ void Model::find_families()
     sub_horizons = has_sub_horizons ? SubHorizons::find(points, isometries, families, horizon) : SubHorizons();
 }
 
-const double* Model::bond_state(std::size_t point, std::size_t b) const
+Model::Holder Model::holder_of(std::size_t point, std::size_t b) const
 {
-    const std::size_t first = has_shared_bonds ? families[point].lower : 0;
-    if (b < first) {
-        const std::uint32_t neighbour = families[point].neighbours[b];
-        return bond_state(neighbour, families.opposite(static_cast<std::uint32_t>(point), neighbour, isometries));
-    }
-    const std::size_t held = b - first;
-    return bonds.state.data() + bonds.first[point] + held / pack_width * rows(point) * pack_width + held % pack_width;
+    const std::size_t first = held(point).first;
+    if (b >= first)
+        return {point, b - first};
+    const std::uint32_t neighbour = families[point].neighbours[b];
+    const std::size_t opposite = families.opposite(static_cast<std::uint32_t>(point), neighbour, isometries);
+    return {neighbour, opposite - held(neighbour).first};
 }
 
 void Model::allocate_bonds()
@@ -49,7 +48,7 @@ void Model::allocate_bonds()
     const std::size_t n = size();
     bonds.first.assign(n + 1, 0);
     for (std::size_t i = 0; i < n; ++i)
-        bonds.first[i + 1] = bonds.first[i] + held(i).packs * rows(i) * pack_width;
+        bonds.first[i + 1] = bonds.first[i] + held_bonds<double>(i, families[i], nullptr).values();
     bonds.state.resize(bonds.first[n]);
     bonds.active.resize(families.packs());
     refresh_position = points.position;

@@ -46,6 +46,11 @@ struct BondData {
     std::vector<std::size_t> first;   ///< of a point, in `state`
     std::vector<std::uint8_t> active; ///< for each pack of a family one bit a bond: does it carry stress?
 
+    /// Does bond b of a family carry stress?
+    bool is_active(const FamilyView& family, std::size_t b) const
+    {
+        return (active[family.first_pack + b / pack_width] >> b % pack_width & 1u) != 0;
+    }
     std::size_t memory() const
     {
         return state.capacity() * sizeof(double) + first.capacity() * sizeof(std::size_t) + active.capacity();
@@ -53,15 +58,26 @@ struct BondData {
 };
 
 /// The bonds of a point whose state it holds: a family from bond `first` on, in packs of their own.
-struct HeldBonds {
-    std::size_t first = 0;
-    std::size_t count = 0;
-    std::size_t packs = 0;
-    const std::uint32_t* neighbours = nullptr;
-    double* state = nullptr;
+template <class Value>
+struct HeldBondsOf {
+    std::size_t first;
+    std::size_t count;
+    std::size_t packs;
+    std::size_t rows; ///< of a bond
+    const std::uint32_t* neighbours;
+    Value* state;
 
+    /// Number of bonds in a pack: pack_width but for the last.
     std::size_t bonds_in(std::size_t pack) const { return std::min(pack_width, count - pack * pack_width); }
+    /// The same as lane bits.
+    std::uint8_t lanes(std::size_t pack) const { return first_lanes(bonds_in(pack)); }
+    /// Doubles of their state.
+    std::size_t values() const { return packs * rows * pack_width; }
+    /// First of the rows of one of these bonds; its rows are pack_width apart.
+    Value* bond(std::size_t held) const { return state + held / pack_width * rows * pack_width + held % pack_width; }
 };
+using HeldBonds = HeldBondsOf<double>;
+using ConstHeldBonds = HeldBondsOf<const double>;
 
 /// Seconds that a few points took of an evaluation, by its parts; only their ratios mean something.
 struct OperatorSamples {
@@ -117,18 +133,29 @@ struct Model {
     std::size_t rows(std::size_t point) const { return body_of(point).rows(); }
 
     /// Bonds to images are held by both ends: their states are mirrored.
-    HeldBonds held(std::size_t point) const
+    HeldBonds held(std::size_t point)
     {
-        const FamilyView family = families[point];
-        const std::size_t first = has_shared_bonds ? family.lower : 0;
-        return {first, family.count - first, (family.count - first + pack_width - 1) / pack_width,
-                family.neighbours + first, const_cast<double*>(bonds.state.data()) + bonds.first[point]};
+        return held_bonds(point, families[point], bonds.state.data() + bonds.first[point]);
+    }
+    ConstHeldBonds held(std::size_t point) const
+    {
+        return held_bonds(point, families[point], bonds.state.data() + bonds.first[point]);
+    }
+    /// The same of families and bonds that are or were of this model.
+    ConstHeldBonds held(std::size_t point, const Families& of, const BondData& data) const
+    {
+        return held_bonds(point, of[point], data.state.data() + data.first[point]);
     }
     /// First of the rows of bond b of a point, held by whichever end; rows are pack_width apart.
-    const double* bond_state(std::size_t point, std::size_t b) const;
     double* bond_state(std::size_t point, std::size_t b)
     {
-        return const_cast<double*>(static_cast<const Model*>(this)->bond_state(point, b));
+        const Holder holder = holder_of(point, b);
+        return held(holder.point).bond(holder.held);
+    }
+    const double* bond_state(std::size_t point, std::size_t b) const
+    {
+        const Holder holder = holder_of(point, b);
+        return held(holder.point).bond(holder.held);
     }
     /// Sizes of the bond data for the families as they are; values are not set.
     void allocate_bonds();
@@ -141,6 +168,21 @@ struct Model {
     void update_records();
     /// Bytes held in points, families and bonds.
     std::size_t memory() const;
+
+private:
+    template <class Value>
+    HeldBondsOf<Value> held_bonds(std::size_t point, const FamilyView& family, Value* state) const
+    {
+        const std::size_t first = has_shared_bonds ? family.lower : 0;
+        const std::size_t count = family.count - first;
+        return {first, count, (count + pack_width - 1) / pack_width, rows(point), family.neighbours + first, state};
+    }
+    /// Who holds bond b of a point, and as which of its held bonds.
+    struct Holder {
+        std::size_t point;
+        std::size_t held;
+    };
+    Holder holder_of(std::size_t point, std::size_t b) const;
 };
 
 } // namespace periporo

@@ -211,16 +211,14 @@ double Evaluator::find_activity(std::size_t point)
 /// Gradients of the bonds that the point holds, on to `stress`.
 void Evaluator::begin_bonds(std::size_t point, const HeldBonds& held, BondStress& stress, std::vector<KeptBonds>& kept)
 {
-    const std::size_t first_pack = model_.families[point].first_pack;
+    const FamilyView family = model_.families[point];
     const Tensor<double> own_gradient = tensor_at(first_row(point) + gradient_at);
     for (std::size_t p = 0; p < held.packs; ++p) {
         const std::uint32_t* neighbours = held.neighbours + p * pack_width;
         std::uint8_t lanes = 0;
-        for (std::size_t lane = 0; lane < held.bonds_in(p); ++lane) {
-            const std::size_t b = held.first + p * pack_width + lane;
-            lanes = static_cast<std::uint8_t>(
-                lanes | (model_.bonds.active[first_pack + b / pack_width] >> b % pack_width & 1u) << lane);
-        }
+        for (std::size_t lane = 0; lane < held.bonds_in(p); ++lane)
+            if (model_.bonds.is_active(family, held.first + p * pack_width + lane))
+                lanes = static_cast<std::uint8_t>(lanes | 1u << lane);
         const PackMask active = lane_mask(lanes);
         const BondGeometry g(model_, point, neighbours, active, influence_);
         const auto other = load_transposed<lent_values>([&](std::size_t lane) { return first_row(neighbours[lane]); });
@@ -348,8 +346,7 @@ void Evaluator::add_moments(std::size_t point, BondForces& forces)
     std::array<Pack, 3> sum{Pack(0.0), Pack(0.0), Pack(0.0)};
     for (std::size_t p = 0; p < held.packs; ++p) {
         const std::uint32_t* neighbours = held.neighbours + p * pack_width;
-        const auto lanes = static_cast<std::uint8_t>((1u << held.bonds_in(p)) - 1u);
-        const BondGeometry g(model_, point, neighbours, lane_mask(lanes), influence_);
+        const BondGeometry g(model_, point, neighbours, lane_mask(held.lanes(p)), influence_);
         const auto m = load_transposed<lent_values>([&](std::size_t lane) { return second_row(neighbours[lane]); });
         const Pack weight = g.omega * g.volume * self_volume;
         const auto along = [&](std::size_t c) {
@@ -442,8 +439,8 @@ void BondProjectionForceState::shares(const Model& model, std::size_t point, std
     double total = 0.0;
     for (std::size_t b = 0; b < family.packs * pack_width; ++b) {
         const NeighbourRecord& other = model.records[family.neighbours[b]];
-        const bool active = (model.bonds.active[family.first_pack + b / pack_width] >> b % pack_width & 1u) != 0;
-        total += shares[b] = active ? influence()((other.x() - self.x()).squaredNorm()) * other.volume : 0.0;
+        total += shares[b] =
+            model.bonds.is_active(family, b) ? influence()((other.x() - self.x()).squaredNorm()) * other.volume : 0.0;
     }
     if (total > 0.0)
         for (double& share : shares)

@@ -26,11 +26,6 @@ void point_state_seen_as(const Isometry& isometry, const double* state, std::siz
     std::copy_n(components, 6, seen);
 }
 
-bool active(const BondData& bonds, std::size_t slot)
-{
-    return (bonds.active[slot / pack_width] >> slot % pack_width & 1u) != 0;
-}
-
 /// For each body its rows that hold variables of the point (StateVariable::of_point).
 std::vector<std::vector<std::size_t>> point_rows(const Model& model)
 {
@@ -59,10 +54,8 @@ template <class Set>
 void for_held_bonds(Model& model, std::size_t point, Set&& set)
 {
     const HeldBonds held = model.held(point);
-    const std::size_t rows = model.rows(point);
     for (std::size_t h = 0; h < held.packs * pack_width; ++h)
-        set(h < held.count ? held.neighbours[h] : static_cast<std::uint32_t>(point),
-            held.state + h / pack_width * rows * pack_width + h % pack_width);
+        set(h < held.count ? held.neighbours[h] : static_cast<std::uint32_t>(point), held.bond(h));
 }
 
 /// Every bond takes its point variables from its point.
@@ -135,14 +128,13 @@ void add_bonds_of_others(const Model& model, std::size_t point, std::span<const 
 /// Adds shares times rows of the bonds that the point holds.
 void add_held_bonds(const Model& model, std::size_t point, std::span<const double> shares, double* state)
 {
-    const HeldBonds held = model.held(point);
-    const std::size_t rows = model.rows(point);
-    for (std::size_t r = 0; r < rows; ++r) {
+    const ConstHeldBonds held = model.held(point);
+    for (std::size_t r = 0; r < held.rows; ++r) {
         Pack sum = 0.0;
         for (std::size_t p = 0; p < held.packs; ++p) {
             alignas(64) double lanes[pack_width] = {};
             std::copy_n(shares.data() + held.first + p * pack_width, held.bonds_in(p), lanes);
-            sum += load_pack(lanes) * load_pack(held.state + (p * rows + r) * pack_width);
+            sum += load_pack(lanes) * load_pack(held.state + (p * held.rows + r) * pack_width);
         }
         state[r] += reduce(sum);
     }
@@ -195,18 +187,16 @@ void refresh_families(Model& model, const ForceState& force_state)
 #pragma omp for schedule(dynamic, 64)
         for (std::size_t i = 0; i < model.size(); ++i) {
             const FamilyView before = old_families[i];
-            const std::size_t first_before = model.has_shared_bonds ? before.lower : 0;
-            const std::size_t rows = model.rows(i);
+            const ConstHeldBonds held_before = model.held(i, old_families, old_bonds);
+            const std::size_t rows = held_before.rows;
             const double* own = model.point_state.data() + i * model.state_stride;
-            std::size_t at = first_before; // both families are ordered by key
+            std::size_t at = held_before.first; // both families are ordered by key
             for_held_bonds(model, i, [&](std::uint32_t j, double* bond) {
                 while (at < before.count && old_families.key(before.neighbours[at]) < model.families.key(j))
                     ++at;
                 if (at < before.count && old_families.key(before.neighbours[at]) == model.families.key(j) &&
-                    active(old_bonds, before.first_pack * pack_width + at)) {
-                    const std::size_t held = at - first_before;
-                    const double* old = old_bonds.state.data() + old_bonds.first[i] +
-                                        held / pack_width * rows * pack_width + held % pack_width;
+                    old_bonds.is_active(before, at)) {
+                    const double* old = held_before.bond(at - held_before.first);
                     for (std::size_t r = 0; r < rows; ++r)
                         bond[r * pack_width] = old[r * pack_width];
                     return;

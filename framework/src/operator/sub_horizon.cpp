@@ -245,8 +245,7 @@ void SubHorizonForceState::shares(const Model& model, std::size_t point, std::sp
     sum_sub_horizons(model.sub_horizons[point], volume, sums);
     double total = 0.0;
     for (std::size_t b = 0; b < shares.size(); ++b) {
-        const bool active = (model.bonds.active[family.first_pack + b / pack_width] >> b % pack_width & 1u) != 0;
-        total += shares[b] = active ? sums[b] + model.records[point].volume : 0.0;
+        total += shares[b] = model.bonds.is_active(family, b) ? sums[b] + model.records[point].volume : 0.0;
     }
     if (total > 0.0)
         for (double& share : shares)

@@ -276,7 +276,7 @@ void set_initial_stress(Model& model, const ForceState& force_state, const CaseD
             const double lateral = initial.lateral_coefficient * vertical;
             const Eigen::Matrix3d stress =
                 lateral * Eigen::Matrix3d::Identity() + (vertical - lateral) * up * up.transpose();
-            double* bond = held.state + h / pack_width * model.rows(i) * pack_width + h % pack_width;
+            double* bond = held.bond(h);
             const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
                                           stress(0, 1), stress(1, 2), stress(0, 2)};
             for (std::size_t c = 0; c < 6; ++c)
