@@ -13,10 +13,11 @@
 #include "periporo/material.hpp"
 #include "periporo/tensor.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace periporo {
 
@@ -79,6 +80,9 @@ public:
     void initialize(double overconsolidation_ratio)
     {
         material_->initialize(batch(rows_, strain_rows_, 0.0), overconsolidation_ratio);
+        for (std::size_t s = 0; s < material_->state_variables().size(); ++s)
+            if (material_->state_variables()[s].reset_on_release)
+                set_state(s, material_->state_variables()[s].initial);
     }
 
     /// Advances by a strain increment [-] over a time step [s]. A failed step leaves the point as it was.
@@ -94,7 +98,8 @@ public:
     }
 
     /// Advances by a mixed step: Newton's method with a tangent by differences finds the strains of the components
-    /// whose stress is controlled. A failed step leaves the point as it was.
+    /// whose stress is controlled. At an edge of a yield surface many strains give one stress: of them the least is
+    /// taken. A failed step leaves the point as it was.
     MaterialStatus step(const MixedStep& step)
     {
         Components strain = Components::Zero();
@@ -118,7 +123,7 @@ public:
                 return status;
             if (left.cwiseAbs().maxCoeff() <= step.tolerance)
                 return this->step(tensor(strain), step.time_step);
-            const Components move = -tangent(step.stress_controlled, strain, residual, left).partialPivLu().solve(left);
+            const Components move = newton_step(step.stress_controlled, strain, residual, left);
             if (!move.allFinite())
                 break;
             double fraction = 1.0; // backtracking: the residual must fall
@@ -180,21 +185,31 @@ private:
         return status;
     }
 
+    /// Newton's step for the strains of the controlled stresses: by differences, and where those leave a singular
+    /// tangent the shortest of all solutions.
     template <class Residual>
-    Eigen::Matrix<double, 6, 6> tangent(const std::array<bool, 6>& stress_controlled, const Components& strain,
-                                        const Residual& residual, const Components& at_strain) const
+    Components newton_step(const std::array<bool, 6>& stress_controlled, const Components& strain,
+                           const Residual& residual, const Components& at_strain) const
     {
-        Eigen::Matrix<double, 6, 6> tangent = Eigen::Matrix<double, 6, 6>::Identity();
+        std::vector<int> controlled;
+        for (int c = 0; c < 6; ++c)
+            if (stress_controlled[static_cast<std::size_t>(c)])
+                controlled.push_back(c);
+        const auto size = static_cast<Eigen::Index>(controlled.size());
+        Eigen::MatrixXd tangent(size, size);
         const double probe = 1e-7 * (1e-3 + strain.cwiseAbs().maxCoeff());
-        for (int d = 0; d < 6; ++d) {
-            if (!stress_controlled[static_cast<std::size_t>(d)])
-                continue;
+        for (Eigen::Index d = 0; d < size; ++d) {
             Components probed = strain;
-            probed[d] += probe;
+            probed[controlled[static_cast<std::size_t>(d)]] += probe;
             MaterialStatus status;
-            tangent.col(d) = (residual(probed, status) - at_strain) / probe;
+            tangent.col(d) = ((residual(probed, status) - at_strain) / probe)(controlled);
         }
-        return tangent;
+        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(size, size);
+        decomposition.setThreshold(1e-8); // what differences leave of a zero
+        decomposition.compute(tangent);
+        Components step = Components::Zero();
+        step(controlled) = -decomposition.solve(Eigen::VectorXd(at_strain(controlled)));
+        return step;
     }
 
     const Material* material_;

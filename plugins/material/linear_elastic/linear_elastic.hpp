@@ -6,9 +6,12 @@
 
 #include "periporo/material_law.hpp"
 
+#include <limits>
+
 namespace periporo {
 
-/// sigma' = sigma'_rotated + K tr(D dt) 1 + 2 G dev(D dt). No internal variables, never fails.
+/// sigma' = sigma'_rotated + K tr(D dt) 1 + 2 G dev(D dt). No internal variables; fails only where a number is
+/// not finite.
 class LinearElastic {
 public:
     static constexpr std::size_t state_count = 0;
@@ -34,6 +37,14 @@ public:
     {
         LawResult<Real, state_count> result;
         result.stress = elastic_stress(old.stress, old.strain_increment, bulk_modulus_, shear_modulus_);
+        const SymmetricTensor<Real>& s = result.stress;
+        const Real size =
+            absolute(s.xx) + absolute(s.yy) + absolute(s.zz) + absolute(s.xy) + absolute(s.yz) + absolute(s.xz);
+        const Mask<Real> usable = size <= Real(std::numeric_limits<double>::max());
+        if (!all(usable)) {
+            result.failed = !usable;
+            result.reason = "stress or strain increment is not a finite number";
+        }
         return result;
     }
 

@@ -149,3 +149,45 @@ TEST_CASE("a fixed region that holds no point, or all, is refused")
             built(quickstart({fmt::format("boundary=[{{type=\"fixed\",plane=\"{}\"}}]", plane), "stage.0.rollers=[]"})),
             doctest::Contains("boundary 'fixed'"), std::runtime_error);
 }
+
+namespace {
+
+/// A law that leaves its two variables as they are.
+struct Memory : specimens::Hooke {
+    static constexpr std::size_t state_count = 2;
+    static std::vector<StateVariable> state_variables()
+    {
+        return {{"accumulated", "-", "", 0.25, true}, {"kept", "-", "", 0.5, false}};
+    }
+    using Hooke::Hooke;
+    template <class Real>
+    LawResult<Real, 2> update(const LawInput<Real, 2>& old) const
+    {
+        return {old.stress, old.state};
+    }
+    template <class Real>
+    std::array<Real, 2> initial_state(const LawInput<Real, 2>& settled, double) const
+    {
+        return settled.state;
+    }
+};
+
+} // namespace
+
+TEST_CASE("the geostatic stage leaves variables that are reset on release at their initial value, and no others")
+{
+    Model model = specimens::from_positions(specimens::lattice(3, 3, 3, 0.1), 0.1);
+    model.bodies[0].material = std::make_shared<LawMaterial<Memory>>(Parameters{});
+    model.allocate();
+    const auto force_state = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    find_first_families(model, *force_state);
+    for (std::size_t i = 0; i < model.size(); ++i)
+        for (std::size_t b = 0; b < model.families[i].count; ++b)
+            specimens::bond_value(model, i, b, 6) = specimens::bond_value(model, i, b, 7) = 3.0;
+    initialize_materials(model, *force_state);
+    for (std::size_t i = 0; i < model.size(); ++i)
+        for (std::size_t b = 0; b < model.families[i].count; ++b) {
+            CHECK(specimens::bond_value(model, i, b, 6) == 0.25);
+            CHECK(specimens::bond_value(model, i, b, 7) == 3.0);
+        }
+}

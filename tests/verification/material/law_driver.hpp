@@ -4,6 +4,7 @@
 // Drives a material law alone: one point along paths of prescribed strain and stress.
 #pragma once
 
+#include "periporo/kit/parameters.hpp"
 #include "periporo/material_law.hpp"
 
 #include <Eigen/LU>
@@ -16,24 +17,10 @@
 
 namespace periporo::test {
 
-/// The parameter values a law is built from: `given` over the defaults of its records, ranges checked.
-inline Parameters parameter_values(const std::vector<Parameter>& records, std::map<std::string, double> given)
+/// The parameter values a law of numbers is built from: `given` over the defaults of its records, ranges checked.
+inline Parameters parameter_values(const std::vector<Parameter>& records, const std::map<std::string, double>& given)
 {
-    Parameters values;
-    for (const Parameter& record : records) {
-        if (const auto found = given.extract(record.name); !found.empty()) {
-            if (const std::string objection = record.objection(found.mapped()); !objection.empty())
-                throw std::invalid_argument(record.name + ": " + objection);
-            values.set(record.name, found.mapped());
-        } else if (record.default_value) {
-            values.set(record.name, *record.default_value);
-        } else if (record.required) {
-            throw std::invalid_argument(record.name + " is missing");
-        }
-    }
-    if (!given.empty())
-        throw std::invalid_argument(given.begin()->first + " is no parameter");
-    return values;
+    return kit::parameters_of(records, {given.begin(), given.end()});
 }
 
 using Stress = SymmetricTensor<double>;
