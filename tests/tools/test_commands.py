@@ -230,7 +230,7 @@ class Test(Tree):
 
 class Help(unittest.TestCase):
     def test_every_command_explains_itself_with_an_example(self):
-        for name in ("setup", "build", "run", "test", "pictures", "verify", "dispersion", "bench"):
+        for name in ("setup", "build", "run", "test", "pictures", "verify", "dispersion", "drive", "bench"):
             done = subprocess.run([TOOLS / name, "--help"], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0, name)
             self.assertRegex(done.stdout, r"(?i)usage", name)

@@ -295,9 +295,15 @@ const Place& CheckedTable::place_of(const std::string& key) const
     return found == places.end() ? place : found->second;
 }
 
+CheckedTable check_case(const CaseNode& root, const TableRules& rules, const PluginRegistry& registry,
+                        Diagnostics& diagnostics)
+{
+    return TableChecker(root, {}, registry, diagnostics).check(rules, TableShape::single, root.place);
+}
+
 CheckedTable check_case(const CaseNode& root, const PluginRegistry& registry, Diagnostics& diagnostics)
 {
-    return TableChecker(root, {}, registry, diagnostics).check(case_rules(), TableShape::single, root.place);
+    return check_case(root, case_rules(), registry, diagnostics);
 }
 
 } // namespace periporo

@@ -37,7 +37,11 @@ struct CheckedTable {
     const Place& place_of(const std::string& key) const;
 };
 
-/// Checks a whole case; every error goes to `diagnostics` and what is right is still in the result.
+/// Checks a whole case against the rules of its root table; every error goes to `diagnostics` and what is right is
+/// still in the result.
+CheckedTable check_case(const CaseNode& root, const TableRules& rules, const PluginRegistry& registry,
+                        Diagnostics& diagnostics);
+/// The same against case_rules().
 CheckedTable check_case(const CaseNode& root, const PluginRegistry& registry, Diagnostics& diagnostics);
 
 } // namespace periporo

@@ -20,21 +20,22 @@ bool lies_in(const path& file, const path& folder)
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-/// The plugins that belong to the running program: those of its build tree, those beside it in a moved installation, or
-/// those of the configured installation.
+/// The plugins that belong to the running program: those that lie beside it as in a build folder or in an installation,
+/// wherever that was moved to; for another program of the build tree those of the build; for a program that was taken
+/// out of its installation those of the configured one.
 path own_plugins()
 {
     std::error_code error;
-    path build_plugins = PERIPORO_BUILD_PLUGINS;
+    const path build_plugins = PERIPORO_BUILD_PLUGINS;
     const path program = std::filesystem::read_symlink("/proc/self/exe", error);
     if (!error) {
+        path beside = (program.parent_path() / PERIPORO_PLUGINS_FROM_PROGRAM).lexically_normal();
+        if (std::filesystem::is_directory(beside, error))
+            return std::filesystem::equivalent(beside, build_plugins, error) ? build_plugins : beside;
         // <build>/lib/periporo
         const path build = std::filesystem::weakly_canonical(build_plugins.parent_path().parent_path(), error);
         if (!error && lies_in(program, build))
             return build_plugins;
-        path beside = (program.parent_path().parent_path() / "lib" / "periporo").lexically_normal();
-        if (std::filesystem::is_directory(beside, error))
-            return beside;
     }
     return PERIPORO_INSTALL_PLUGINS;
 }

@@ -1,0 +1,18 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where a case says that further plugins are.
+#pragma once
+
+#include "case/node.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace periporo {
+
+/// Makes the paths of [plugins] absolute, each relative to the file it was written in (an override: to the current
+/// folder), and returns them. What is not a list of texts is left for the check to report.
+std::vector<std::filesystem::path> resolve_plugin_paths(CaseNode& root);
+
+} // namespace periporo

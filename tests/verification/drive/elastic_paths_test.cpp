@@ -1,0 +1,183 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Every kind of stage with Hooke's law, where each has a closed form: K = 2 MPa, G = 1.2 MPa, E = 3 MPa, nu = 0.25.
+#include "support/paths.hpp"
+
+using namespace periporo;
+using namespace periporo::test;
+
+namespace {
+
+constexpr double bulk_modulus = 2e6;
+constexpr double shear_modulus = 1.2e6;
+constexpr double youngs_modulus = 3e6;
+constexpr double poisson_ratio = 0.25;
+// Controlled stresses are met to a billionth of the largest stress in every step, and the steps do not add up.
+constexpr double tight = 1e-8;
+
+const std::string start = "[initial]\npressure = \"10 kPa\"\n";
+
+std::string stage(const std::string& keys)
+{
+    return rubber + start + "[[stage]]\nduration = 1\nsteps = 10\n" + keys;
+}
+
+} // namespace
+
+TEST_CASE("an isotropic stage to a pressure compresses by its change over K")
+{
+    const DrivenPath path(stage("type = \"isotropic\"\npressure = \"30 kPa\""));
+    CHECK(mean_pressure(path.end().stress()) == doctest::Approx(30e3).epsilon(tight));
+    CHECK(trace(path.end().strain()) == doctest::Approx(-20e3 / bulk_modulus).epsilon(tight));
+    CHECK(deviator_stress(path.end().stress()) < tight * 30e3);
+}
+
+TEST_CASE("an isotropic stage of anisotropic stress changes the three normal stresses alike")
+{
+    const DrivenPath path(rubber + "[initial]\nstress = [-5e3, -5e3, -1e4, 0, 0, 0]\n" +
+                          "[[stage]]\nduration = 1\ntype = \"isotropic\"\npressure = \"20 kPa\"");
+    CHECK(mean_pressure(path.end().stress()) == doctest::Approx(20e3).epsilon(tight));
+    CHECK(path.end().stress().xx - path.end().stress().zz == doctest::Approx(5e3).epsilon(tight));
+}
+
+TEST_CASE("oedometric compression adds lateral to axial stress as nu/(1 - nu)")
+{
+    const DrivenPath path(stage("type = \"oedometric\"\naxial_compression = 0.01"));
+    const SymmetricTensor<double> change = path.end().stress() - path.start().stress();
+    CHECK(change.xx / change.zz == doctest::Approx(poisson_ratio / (1.0 - poisson_ratio)).epsilon(tight));
+    CHECK(change.yy == change.xx);
+    CHECK(change.zz == doctest::Approx(-0.01 * (bulk_modulus + 4.0 / 3.0 * shear_modulus)).epsilon(tight));
+    CHECK(path.end().strain().xx == 0.0);
+}
+
+TEST_CASE("oedometric loading to an axial pressure ends there")
+{
+    const DrivenPath path(stage("type = \"oedometric\"\naxial_pressure = \"50 kPa\""));
+    CHECK(path.end().stress().zz == doctest::Approx(-50e3).epsilon(tight));
+    CHECK(path.end().strain().zz == doctest::Approx(-40e3 / (bulk_modulus + 4.0 / 3.0 * shear_modulus)).epsilon(tight));
+}
+
+TEST_CASE("drained triaxial compression has the stiffness E and holds the lateral stress")
+{
+    for (const std::string target : {"axial_compression = 0.01", "deviator_stress = \"30 kPa\""}) {
+        CAPTURE(target);
+        const DrivenPath path(stage("type = \"triaxial_drained\"\n" + target));
+        CHECK(path.end().stress().zz == doctest::Approx(-10e3 - youngs_modulus * 0.01).epsilon(tight));
+        CHECK(path.end().strain().zz == doctest::Approx(-0.01).epsilon(tight));
+        CHECK(path.end().strain().xx == doctest::Approx(0.01 * poisson_ratio).epsilon(tight));
+        CHECK(path.end().stress().xx == doctest::Approx(-10e3).epsilon(tight));
+    }
+}
+
+TEST_CASE("undrained triaxial compression keeps volume and pressure and has q = 3 G eps_s")
+{
+    const DrivenPath path(stage("type = \"triaxial_undrained\"\naxial_compression = 0.01"));
+    CHECK(std::abs(trace(path.end().strain())) < 1e-16); // round-off of sums of 0.001
+    CHECK(mean_pressure(path.end().stress()) == doctest::Approx(10e3).epsilon(tight));
+    CHECK(deviator_stress(path.end().stress()) == doctest::Approx(3.0 * shear_modulus * 0.01).epsilon(tight));
+    CHECK(equivalent_shear_strain(path.end().strain()) == doctest::Approx(0.01).epsilon(tight));
+}
+
+TEST_CASE("simple shear by gamma gives the shear stress G gamma, under control of strain and of stress")
+{
+    for (const std::string target : {"shear_strain = 0.02", "shear_stress = \"24 kPa\""})
+        for (const std::string vertical : {"constant_height", "constant_stress"}) {
+            CAPTURE(target);
+            CAPTURE(vertical);
+            const DrivenPath path(stage("type = \"simple_shear\"\nvertical = \"" + vertical + "\"\n" + target));
+            CHECK(path.end().stress().xz == doctest::Approx(shear_modulus * 0.02).epsilon(tight));
+            CHECK(2.0 * path.end().strain().xz == doctest::Approx(0.02).epsilon(tight));
+            CHECK(path.end().stress().zz == doctest::Approx(-10e3).epsilon(tight));
+        }
+}
+
+TEST_CASE("true triaxial compression goes to three pressures, or by three compressions")
+{
+    const DrivenPath stresses(stage("type = \"true_triaxial\"\npressures = [\"20 kPa\", \"30 kPa\", \"60 kPa\"]"));
+    CHECK(stresses.end().stress().xx == doctest::Approx(-20e3).epsilon(tight));
+    CHECK(stresses.end().stress().yy == doctest::Approx(-30e3).epsilon(tight));
+    CHECK(stresses.end().stress().zz == doctest::Approx(-60e3).epsilon(tight));
+    // eps_x = (sigma_x - nu (sigma_y + sigma_z))/E of the changes -10, -20 and -50 kPa
+    CHECK(stresses.end().strain().xx ==
+          doctest::Approx((-10e3 + poisson_ratio * 70e3) / youngs_modulus).epsilon(tight));
+
+    const DrivenPath strains(stage("type = \"true_triaxial\"\ncompressions = [0.001, 0.002, 0.003]"));
+    CHECK(strains.end().strain().yy == doctest::Approx(-0.002).epsilon(tight));
+    CHECK(mean_pressure(strains.end().stress()) == doctest::Approx(10e3 + bulk_modulus * 0.006).epsilon(tight));
+}
+
+TEST_CASE("a rise of suction at constant total stress raises the effective pressure by S_r s")
+{
+    const DrivenPath path(stage("type = \"suction\"\nsuction = \"20 kPa\"\nsaturation = 0.4\nheld = \"total_stress\""));
+    CHECK(path.end().suction() == 20e3);
+    CHECK(path.end().saturation() == 0.4);
+    CHECK(mean_pressure(path.end().stress()) == doctest::Approx(10e3 + 0.4 * 20e3).epsilon(tight));
+    CHECK(trace(path.end().strain()) == doctest::Approx(-0.4 * 20e3 / bulk_modulus).epsilon(tight));
+}
+
+TEST_CASE("a rise of suction at constant effective stress does not strain an elastic soil")
+{
+    const DrivenPath path(
+        stage("type = \"suction\"\nsuction = \"20 kPa\"\nsaturation = 0.4\nheld = \"effective_stress\""));
+    CHECK(path.end().suction() == 20e3);
+    CHECK(norm(path.end().strain()) < tight * 20e3 / bulk_modulus);
+}
+
+TEST_CASE("a mixed stage meets the stresses and strains of its components and holds what it is told to")
+{
+    const DrivenPath path(rubber + "[initial]\nstress = [-1e4, -2e4, -3e4, 1e3, 0, 0]\n" +
+                          "[[stage]]\nduration = 1\ntype = \"mixed\"\nheld_stress = [\"yy\", \"xy\"]\n"
+                          "stress = { xx = \"-15 kPa\" }\nstrain = { zz = -0.004, yz = 0.001 }");
+    const SymmetricTensor<double> stress = path.end().stress();
+    const SymmetricTensor<double> strain = path.end().strain();
+    CHECK(stress.xx == doctest::Approx(-15e3).epsilon(tight));
+    CHECK(stress.yy == doctest::Approx(-20e3).epsilon(tight));
+    CHECK(stress.xy == doctest::Approx(1e3).epsilon(tight));
+    CHECK(strain.zz == doctest::Approx(-0.004).epsilon(tight));
+    CHECK(stress.yz == doctest::Approx(2.0 * shear_modulus * 0.001).epsilon(tight));
+    CHECK(strain.xz == 0.0); // named nowhere
+    CHECK(strain.xx == doctest::Approx((-5e3 - poisson_ratio * (stress.zz + 30e3)) / youngs_modulus).epsilon(tight));
+}
+
+TEST_CASE("a one-way cycle goes to the target and back, and an elastic loop closes")
+{
+    const DrivenPath path(stage("type = \"triaxial_drained\"\ndeviator_stress = \"30 kPa\"\ncycles = 3"));
+    REQUIRE(path.rows().size() == 1 + 3 * 2 * 10);
+    for (const std::size_t peak : {10U, 30U, 50U})
+        CHECK(deviator_stress(path.rows()[peak].point.stress()) == doctest::Approx(30e3).epsilon(tight));
+    CHECK(norm(path.end().stress() - path.start().stress()) < tight * 30e3);
+    CHECK(norm(path.end().strain()) < tight * 0.01);
+}
+
+TEST_CASE("a two-way cycle swings as far to the other side, at the same rate")
+{
+    const DrivenPath path(stage(
+        "type = \"simple_shear\"\nvertical = \"constant_height\"\nshear_strain = 0.02\ncycles = 2\ntwo_way = true"));
+    REQUIRE(path.rows().size() == 1 + 2 * 4 * 10);
+    CHECK(2.0 * path.rows()[10].point.strain().xz == doctest::Approx(0.02));
+    CHECK(2.0 * path.rows()[30].point.strain().xz == doctest::Approx(-0.02));
+    CHECK(2.0 * path.rows()[50].point.strain().xz == doctest::Approx(0.02));
+    CHECK(std::abs(path.end().strain().xz) < 1e-15);        // round-off of 80 steps of 0.001
+    CHECK(path.rows().back().time == doctest::Approx(8.0)); // eight times the way to the target
+}
+
+TEST_CASE("a rate of strain makes the duration")
+{
+    const DrivenPath path(rubber + start +
+                          "[[stage]]\ntype = \"triaxial_undrained\"\naxial_compression = 0.02\n"
+                          "strain_rate = \"1e-3 s^-1\"\nsteps = 4");
+    CHECK(path.rows().back().time == doctest::Approx(20.0));
+}
+
+TEST_CASE("stages follow each other, with steps, stages and time counted on")
+{
+    const DrivenPath path(stage("type = \"isotropic\"\npressure = \"20 kPa\"") +
+                          "\n[[stage]]\nduration = 3\nsteps = 2\ntype = \"oedometric\"\naxial_compression = 0.01");
+    REQUIRE(path.rows().size() == 13);
+    CHECK(path.rows()[0].stage == 0);
+    CHECK(path.rows()[10].stage == 1);
+    CHECK(path.rows()[11].stage == 2);
+    CHECK(path.rows().back().step == 12);
+    CHECK(path.rows().back().time == doctest::Approx(4.0));
+}
