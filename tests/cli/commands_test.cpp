@@ -5,6 +5,7 @@
 #include "cli/program.hpp"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 using namespace periporo::test;
 
@@ -209,4 +210,44 @@ TEST_CASE("inspect tells of a library that was refused, and why")
     CHECK(result.status == 0);
     CHECK(contains(result.out, "refused\n"));
     CHECK(contains(result.out, "periporo_material_broken.so: "));
+}
+
+TEST_CASE("the page of reference has a row for every parameter that the list for machines has")
+{
+    const ProgramFolder folder;
+    const ProgramResult page = folder.run("inspect --markdown");
+    const ProgramResult list = folder.run("inspect --json");
+    CHECK(page.status == 0);
+    CHECK(list.status == 0);
+    std::size_t parameters = 0;
+    for (const nlohmann::json& plugin : nlohmann::json::parse(list.out)) {
+        const std::string heading = "\n### " + plugin["name"].get<std::string>() + "\n";
+        CAPTURE(heading);
+        const std::size_t begin = page.out.find(heading);
+        REQUIRE(begin != std::string::npos);
+        const std::size_t end = page.out.find("\n### ", begin + heading.size());
+        const std::string section = page.out.substr(begin, end - begin);
+        for (const nlohmann::json& parameter : plugin["parameters"]) {
+            CHECK(contains(section, "\n| `" + parameter["name"].get<std::string>() + "` | "));
+            ++parameters;
+        }
+    }
+    CHECK(parameters > 20); // the shipped plugins have more
+}
+
+TEST_CASE("inspect for machines gives the type of a default")
+{
+    const ProgramResult result = ProgramFolder().run("inspect viscoplastic_critical_state --json");
+    CHECK(result.status == 0);
+    const nlohmann::json plugins = nlohmann::json::parse(result.out);
+    REQUIRE(plugins.size() == 1);
+    CHECK(plugins[0]["kind"] == "material");
+    for (const nlohmann::json& parameter : plugins[0]["parameters"])
+        if (parameter["name"] == "tensile_strength") {
+            CHECK(parameter["unit"] == "Pa");
+            CHECK(parameter["default"] == 0.0);
+            CHECK(parameter["required"] == false);
+            return;
+        }
+    FAIL("the parameter tensile_strength is not listed");
 }
