@@ -57,7 +57,9 @@ public:
     virtual ~Material() = default;
 
     virtual const std::vector<StateVariable>& state_variables() const = 0;
-    /// Elastic moduli K and G [Pa] that bound the stiffness of the law, for the stable step.
+    /// Elastic moduli K and G [Pa] that bound the stiffness of the law, for the stable step. Flow that is not along the
+    /// normal of the yield surface may exceed them by some per cent; the safety factor of the step covers a wave
+    /// modulus K + 4/3 G larger by 38 per cent.
     virtual double bulk_modulus() const = 0;
     virtual double shear_modulus() const = 0;
     /// Advances stress and state of a block by one step. Does not throw.
