@@ -37,8 +37,8 @@ _REFRESH = "unit.operator.refresh_test"
 MUTATIONS = {
     "influence_dropped_from_the_force": Mutation(
         "operator/sub_horizon.cpp",
-        "const Pack weight = omega * load_pack(w.volume.data() + at) * self_volume;",
-        "const Pack weight = load_pack(w.volume.data() + at) * self_volume;",
+        "const Pack weight = omega * load_pack(&w.volume[at]) * self_volume;",
+        "const Pack weight = load_pack(&w.volume[at]) * self_volume;",
         _IDENTITIES,
     ),
     "influence_dropped_from_the_projected_force": Mutation(
@@ -48,6 +48,24 @@ MUTATIONS = {
         "operator/sub_horizon.cpp",
         "total > 0.0 ? 1.0 / total : 0.0",
         "total > 0.0 ? 0.99 / total : 0.0",
+        _IDENTITIES,
+    ),
+    "shares_of_inactive_bonds_handed_on": Mutation(
+        "operator/sub_horizon.cpp",
+        "total += select(lane_mask(family.lanes(p)), volume, zero);",
+        "total += weight;",
+        _IDENTITIES,
+    ),
+    "bond_force_left_in_the_moments": Mutation(
+        "operator/sub_horizon.cpp",
+        "share += dyad(along, zeta) * Pack(-1.0);",
+        "",
+        _IDENTITIES,
+    ),
+    "bond_motion_over_its_own_length": Mutation(
+        "operator/sub_horizon.cpp",
+        "maximum(squared, Pack(least_squared))",
+        "squared",
         _IDENTITIES,
     ),
     "transposed_gradient": Mutation(

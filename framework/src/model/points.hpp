@@ -14,7 +14,7 @@ namespace periporo {
 /// A point's volume, its weight in all sums, does not grow beyond this multiple of its initial one; what opens further
 /// is a gap between grains and not soil. J itself goes on, so that the gap must close before the volume shrinks.
 /// Without the bound single grains of a thin rim reached J = 7, their stiffness grew with it, and the stable step fell.
-inline constexpr double largest_volume_ratio = 2.0;
+inline constexpr double largest_volume_ratio = 1.25;
 
 struct Points {
     std::vector<Vector3> position;         ///< x [m]

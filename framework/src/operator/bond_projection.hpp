@@ -8,9 +8,6 @@
 
 namespace periporo {
 
-/// In spacings; two points nearer to each other have no bond that carries stress.
-inline constexpr double shortest_bond = 0.35;
-
 /// Breitzman and Dayal 2018, Behzadinasab and Foster 2020, in the current configuration. With n = zeta/|zeta|,
 ///     K_i = sum_j omega V_j n (x) n;  L_i = [sum_j omega V_j (v_j - v_i) (x) zeta/|zeta|^2] K_i^-1
 ///     L_ij = Lbar + [(v_j - v_i) - Lbar zeta] (x) zeta/|zeta|^2,  Lbar = (L_i + L_j)/2

@@ -11,18 +11,20 @@ namespace periporo {
 
 const std::vector<std::string>& force_state_names()
 {
-    static const std::vector<std::string> names{"energy_conjugate", "volume_weighted", "bond_projection",
-                                                "unstabilized"};
+    static const std::vector<std::string> names{"energy_conjugate", "energy_conjugate_mean", "volume_weighted",
+                                                "bond_projection", "unstabilized"};
     return names;
 }
 
 std::unique_ptr<ForceState> make_force_state(const std::string& name, Influence influence)
 {
-    using Weighting = SubHorizonForceState::Weighting;
+    using Kind = SubHorizonForceState::Kind;
     if (name == "energy_conjugate")
-        return std::make_unique<SubHorizonForceState>(influence, Weighting::energy_conjugate);
+        return std::make_unique<SubHorizonForceState>(influence, Kind::energy_conjugate);
+    if (name == "energy_conjugate_mean")
+        return std::make_unique<SubHorizonForceState>(influence, Kind::energy_conjugate_mean);
     if (name == "volume_weighted")
-        return std::make_unique<SubHorizonForceState>(influence, Weighting::volume_weighted);
+        return std::make_unique<SubHorizonForceState>(influence, Kind::volume_weighted);
     if (name == "bond_projection")
         return std::make_unique<BondProjectionForceState>(influence);
     if (name == "unstabilized")

@@ -58,6 +58,11 @@ inline constexpr double singular_shape_quality = 1e-3;
 /// A point whose K_i of the bond projection has det K/(tr K/3)^3 below this has no gradient of its own.
 inline constexpr double least_shape_quality = 0.15;
 
+/// In spacings. The stiffness along a bond whose gradient maps the bond itself grows with 1/|zeta|^2, and the direction
+/// of two points on top of each other means nothing: below this length `bond_projection` has no bond that carries
+/// stress, and `energy_conjugate` asks for (|zeta|/l)^2 of the agreement, l being this length.
+inline constexpr double shortest_bond = 0.35;
+
 /// How bond stresses become forces. One object serves all points; it holds no state of the simulation.
 class ForceState {
 public:
@@ -85,7 +90,8 @@ private:
     Influence influence_;
 };
 
-/// Names for `make_force_state`: "energy_conjugate", "volume_weighted", "bond_projection", "unstabilized".
+/// Names for `make_force_state`: "energy_conjugate", "energy_conjugate_mean", "volume_weighted", "bond_projection",
+/// "unstabilized".
 const std::vector<std::string>& force_state_names();
 
 /// @throws std::invalid_argument for a name that is not in force_state_names().

@@ -8,6 +8,8 @@
 #include "operator/sub_horizon_sums.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace periporo {
 namespace {
@@ -20,10 +22,12 @@ constexpr std::size_t moment_values = 8;
 /// Buffers of one thread for one point.
 struct Workspace {
     AlignedVector<double> zeta;          // 3 packs a pack of bonds
+    AlignedVector<double> motion;        // 3: v_j - v_i
     AlignedVector<double> omega;         // 1
     AlignedVector<double> volume;        // 1: V of the neighbour, zero in lanes without a bond
     AlignedVector<double> inverse_shape; // 6
     AlignedVector<double> weight;        // 1: V(H_b), zero where inactive
+    AlignedVector<double> along;         // 3: f sigma_b zeta/max(|zeta|^2, l^2), f as in stress_moments()
     BondRows<kinematic_values, false> features, sums;
     BondRows<moment_values, true> moments, moment_sums;
     StressWorkspace stress;
@@ -34,6 +38,8 @@ struct Workspace {
         if (!omega.empty() && omega.size() >= lanes)
             return;
         zeta.resize(3 * lanes);
+        motion.resize(3 * lanes);
+        along.resize(3 * lanes);
         omega.resize(lanes);
         volume.resize(lanes);
         inverse_shape.resize(6 * lanes);
@@ -45,6 +51,40 @@ struct Workspace {
         stress.reserve(packs);
     }
 };
+
+using Vector = std::array<Pack, 3>;
+
+/// Three rows of a pack as a vector, and back.
+Vector load_vector(const double* rows)
+{
+    return {load_pack(rows), load_pack(rows + pack_width), load_pack(rows + 2 * pack_width)};
+}
+void store_vector(const Vector& v, double* rows)
+{
+    for (std::size_t c = 0; c < 3; ++c)
+        store_pack(v[c], rows + c * pack_width);
+}
+
+Vector operator*(const Tensor<Pack>& t, const Vector& v)
+{
+    return {t.xx * v[0] + t.xy * v[1] + t.xz * v[2], t.yx * v[0] + t.yy * v[1] + t.yz * v[2],
+            t.zx * v[0] + t.zy * v[1] + t.zz * v[2]};
+}
+
+/// a (x) b
+Tensor<Pack> dyad(const Vector& a, const Vector& b)
+{
+    return {a[0] * b[0], a[0] * b[1], a[0] * b[2], a[1] * b[0], a[1] * b[1],
+            a[1] * b[2], a[2] * b[0], a[2] * b[1], a[2] * b[2]};
+}
+
+/// zeta/max(|zeta|^2, l^2): turns a motion between the ends of a bond into a gradient along it.
+Vector along_bond(const Vector& zeta, double least_squared)
+{
+    const Pack squared = zeta[0] * zeta[0] + zeta[1] * zeta[1] + zeta[2] * zeta[2];
+    const Pack reciprocal = Pack(1.0) / maximum(squared, Pack(least_squared));
+    return {zeta[0] * reciprocal, zeta[1] * reciprocal, zeta[2] * reciprocal};
+}
 
 struct FamilySums {
     double volume;         ///< V(H_i) [m3]
@@ -74,9 +114,8 @@ FamilySums gather(const Model& model, std::size_t point, const FamilyView& famil
         const Pack weight = omega * volume;
         volumes += volume;
         weights += weight;
-        store_pack(x, &w.zeta[3 * at]);
-        store_pack(y, &w.zeta[3 * at + pack_width]);
-        store_pack(z, &w.zeta[3 * at + 2 * pack_width]);
+        store_vector({x, y, z}, &w.zeta[3 * at]);
+        store_vector({u, v, t}, &w.motion[3 * at]);
         store_pack(omega, &w.omega[at]);
         store_pack(volume, &w.volume[at]);
         const Pack wx = weight * x;
@@ -91,12 +130,13 @@ FamilySums gather(const Model& model, std::size_t point, const FamilyView& famil
     return {self.volume + volume, volume > 0.0 ? reduce(weights) / volume : 0.0};
 }
 
-/// K_b^-1, L_b, V(H_b) and activity of every bond; L_b goes on to `stress`. Returns the sum of V(H_b) over active
-/// bonds.
+/// K_b^-1, V(H_b), activity and gradient of every bond; the gradient goes on to `stress`. Returns the sum of V(H_b)
+/// over all bonds, inactive ones too.
 /// @param thickness least thickness squared [m2]
 /// @param lag see Evaluation::gradient_lag [s]
+/// @param least_squared l^2 [m2], none for gradients that are means over the sub-horizon
 double kinematics(const Model& model, std::size_t point, const FamilyView& family, const FamilySums& family_sums,
-                  double thickness, double lag, Workspace& w, BondStress& stress)
+                  double thickness, double lag, std::optional<double> least_squared, Workspace& w, BondStress& stress)
 {
     const double self_volume = model.records[point].volume;
     const Pack zero = 0.0;
@@ -119,69 +159,85 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
         store_symmetric(inverse_shape, w.inverse_shape.data() + p * 6 * pack_width);
         const Pack weight = select(active, volume, zero);
         store_pack(weight, w.weight.data() + p * pack_width);
-        total += weight;
+        total += select(lane_mask(family.lanes(p)), volume, zero);
         // L (1 - lag L)^-1 with L = M K^-1 is M (K - lag M)^-1
         const Tensor<Pack> moment{s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]};
         const Adjugate<Pack> behind = adjugate(full(shape) + moment * Pack(-lag));
         const Pack reciprocal = select(active, Pack(1.0) / behind.determinant, zero);
-        stress.begin(p, moment * behind.tensor * reciprocal, lane_bits(active));
+        Tensor<Pack> gradient = moment * behind.tensor * reciprocal;
+        if (least_squared) {
+            const Vector motion = load_vector(&w.motion[p * 3 * pack_width]);
+            Vector zeta = load_vector(&w.zeta[p * 3 * pack_width]);
+            for (std::size_t c = 0; c < 3; ++c)
+                zeta[c] -= lag * motion[c];
+            const Vector seen = gradient * zeta;
+            Vector unseen;
+            for (std::size_t c = 0; c < 3; ++c)
+                unseen[c] = select(active, motion[c] - seen[c], zero);
+            gradient += dyad(unseen, along_bond(zeta, *least_squared));
+        }
+        stress.begin(p, gradient, lane_bits(active));
     }
     return reduce(total);
 }
 
-/// M zeta of a pack of bonds, times omega V_i V_j: the forces of the force state T = omega M zeta.
-std::array<Pack, 3> bond_force(const Tensor<Pack>& moment, const Workspace& w, std::size_t pack, double self_volume)
-{
-    const std::size_t at = pack * pack_width;
-    const Pack omega = load_pack(w.omega.data() + at);
-    const Pack weight = omega * load_pack(w.volume.data() + at) * self_volume;
-    const Pack x = load_pack(&w.zeta[3 * at]);
-    const Pack y = load_pack(&w.zeta[3 * at + pack_width]);
-    const Pack z = load_pack(&w.zeta[3 * at + 2 * pack_width]);
-    return {weight * (moment.xx * x + moment.xy * y + moment.xz * z),
-            weight * (moment.yx * x + moment.yy * y + moment.yz * z),
-            weight * (moment.zx * x + moment.zy * y + moment.zz * z)};
-}
-
 /// f sigma_b K_b^-1 of every bond, as the moments of the workspace, where f is `moment_factor` times V(H_b); and what
-/// the model keeps of the point.
+/// the model keeps of the point. Of what goes along the bond itself the moments keep nothing.
 /// @param share_factor the shares over V(H_b)
+/// @param least_squared as in kinematics()
 void stress_moments(Model& model, std::size_t point, const FamilyView& family, const BondStress& stress,
-                    double share_factor, double moment_factor, Workspace& w)
+                    double share_factor, double moment_factor, std::optional<double> least_squared, Workspace& w)
 {
     Pack work = 0.0;
     Pack dilation = 0.0;
+    Pack carrying = 0.0;
     std::uint32_t active = 0;
     for (std::size_t p = 0; p < family.packs; ++p) {
         const BondStress::Outcome bond = stress.end(p);
         const Pack weight = load_pack(w.weight.data() + p * pack_width);
         work += weight * share_factor * bond.work;
-        dilation += weight * share_factor * bond.dilation;
+        dilation += weight * bond.dilation;
+        carrying += weight;
         active += static_cast<std::uint32_t>(std::popcount(stress.active(p)));
         model.bonds.active[family.first_pack + p] = stress.active(p);
-        const Tensor<Pack> m =
-            full(bond.stress * (weight * moment_factor)) * load_symmetric(w.inverse_shape.data() + p * 6 * pack_width);
+        Tensor<Pack> share = full(bond.stress * (weight * moment_factor));
+        if (least_squared) {
+            const Vector zeta = load_vector(&w.zeta[p * 3 * pack_width]);
+            const Vector along = share * along_bond(zeta, *least_squared);
+            store_vector(along, &w.along[p * 3 * pack_width]);
+            share += dyad(along, zeta) * Pack(-1.0);
+        }
+        const Tensor<Pack> m = share * load_symmetric(w.inverse_shape.data() + p * 6 * pack_width);
         store_transposed<moment_values>({m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy},
                                         w.moments.row(p * pack_width));
         store_pack(m.zz, w.moments.column.data() + p * pack_width);
     }
     model.stress_work[point] = model.points.volume[point] * reduce(work);
-    model.volume_rate[point] = reduce(dilation);
+    model.volume_rate[point] = active == 0 ? 0.0 : reduce(dilation) / reduce(carrying);
     model.inactive_bonds[point] = static_cast<std::uint32_t>(family.count) - active;
     model.free_grain[point] = active == 0 ? 1 : 0;
 }
 
-/// Forces of the force states omega M zeta.
-void add_forces(const Model& model, std::size_t point, const FamilyView& family,
+/// Forces of the force states V_j T = omega V_j M zeta + what goes along the bond itself.
+void add_forces(const Model& model, std::size_t point, const FamilyView& family, bool along_bonds,
                 const BondRows<moment_values, true>& moments, const Workspace& w, BondForces& forces)
 {
-    std::array<Pack, 3> sum{Pack(0.0), Pack(0.0), Pack(0.0)};
+    const double self_volume = model.records[point].volume;
+    Vector sum{Pack(0.0), Pack(0.0), Pack(0.0)};
     for (std::size_t p = 0; p < family.packs; ++p) {
-        const auto m =
-            load_transposed<moment_values>([&](std::size_t lane) { return moments.row(p * pack_width + lane); });
-        const std::array<Pack, 3> force = bond_force(
-            {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], load_pack(moments.column.data() + p * pack_width)}, w, p,
-            model.records[point].volume);
+        const std::size_t at = p * pack_width;
+        const auto m = load_transposed<moment_values>([&](std::size_t lane) { return moments.row(at + lane); });
+        const Tensor<Pack> moment{m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], load_pack(&moments.column[at])};
+        const Pack omega = load_pack(&w.omega[at]);
+        const Pack weight = omega * load_pack(&w.volume[at]) * self_volume;
+        Vector force = moment * load_vector(&w.zeta[3 * at]);
+        for (Pack& component : force)
+            component *= weight;
+        if (along_bonds) {
+            const Vector along = load_vector(&w.along[3 * at]);
+            for (std::size_t c = 0; c < 3; ++c)
+                force[c] += self_volume * along[c];
+        }
         for (std::size_t c = 0; c < 3; ++c)
             sum[c] += force[c];
         forces.take_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
@@ -193,7 +249,10 @@ void add_forces(const Model& model, std::size_t point, const FamilyView& family,
 
 void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) const
 {
-    const bool conjugate = weighting_ == Weighting::energy_conjugate;
+    const bool conjugate = kind_ != Kind::volume_weighted;
+    std::optional<double> least_squared;
+    if (kind_ == Kind::energy_conjugate)
+        least_squared = std::pow(shortest_bond * model.spacing, 2);
     const double thickness = least_relative_thickness * influence().second_moment();
     FirstFailure failure;
     BondForces::prepare(model);
@@ -212,8 +271,8 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
                 sum_sub_horizons(model.sub_horizons[i], w.features, w.sums);
                 BondStress stress(model, i, family.neighbours, family.packs,
                                   model.bonds.state.data() + model.bonds.first[i], evaluation, w.stress);
-                const double total =
-                    kinematics(model, i, family, family_sums, thickness, evaluation.gradient_lag(), w, stress);
+                const double total = kinematics(model, i, family, family_sums, thickness, evaluation.gradient_lag(),
+                                                least_squared, w, stress);
                 const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;
                 times.end_of(&OperatorSamples::kinematics);
                 if (const MaterialStatus status = stress.update(); !status.converged)
@@ -221,10 +280,11 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
                 times.end_of(&OperatorSamples::material);
 
                 const double moment_factor = conjugate ? reciprocal_total : 1.0 / family_sums.volume;
-                stress_moments(model, i, family, stress, reciprocal_total, moment_factor, w);
+                stress_moments(model, i, family, stress, reciprocal_total, moment_factor, least_squared, w);
                 if (conjugate)
                     sum_sub_horizons(model.sub_horizons[i], w.moments, w.moment_sums);
-                add_forces(model, i, family, conjugate ? w.moment_sums : w.moments, w, forces);
+                add_forces(model, i, family, least_squared.has_value(), conjugate ? w.moment_sums : w.moments, w,
+                           forces);
                 times.end_of(&OperatorSamples::force);
             }
         }

@@ -14,23 +14,27 @@ namespace periporo {
 /// (Menon and Song 2021). A bond whose sub-horizon is thinner than least_relative_thickness is inactive.
 class SubHorizonForceState : public ForceState {
 public:
-    enum class Weighting {
-        /// T_ik = omega_ik [sum_{b of i, k in H_b} w_b sigma_b K_b^-1] zeta_ik with w_b = V(H_b)/sum_b' V(H_b'):
-        /// conjugate to the stress power sum_i V_i sum_b w_b sigma_b : D_b.
+    enum class Kind {
+        /// The gradient agrees with the bond along itself, L_b' = L_b + (v_j - v_i - L_b zeta) (x) zeta/|zeta|^2, with
+        /// |zeta| at least `shortest_bond` spacings in the denominator, and the forces are conjugate to the stress
+        /// power sum_i V_i sum_b w_b sigma_b : L_b' with w_b = V(H_b)/sum_b' V(H_b').
         energy_conjugate,
+        /// The gradient is L_b: T_ik = omega_ik [sum_{b of i, k in H_b} w_b sigma_b K_b^-1] zeta_ik, conjugate to
+        /// sum_i V_i sum_b w_b sigma_b : L_b. Points of soil that flows pair up with it.
+        energy_conjugate_mean,
         /// T_ij = phi_b omega_ij sigma_b K_b^-1 zeta_ij with phi_b = V(H_b)/V(H_i), as published. Not consistent: the
         /// sum of V T (x) zeta over a family is about 0.83 times the stress at delta = 3 dx.
         volume_weighted
     };
 
-    SubHorizonForceState(Influence influence, Weighting weighting) : ForceState(influence), weighting_(weighting) {}
+    SubHorizonForceState(Influence influence, Kind kind) : ForceState(influence), kind_(kind) {}
 
     void evaluate(Model& model, const Evaluation& evaluation) const override;
     void shares(const Model& model, std::size_t point, std::span<double> shares) const override;
     bool uses_sub_horizons() const override { return true; }
 
 private:
-    Weighting weighting_;
+    Kind kind_;
 };
 
 } // namespace periporo
