@@ -28,7 +28,7 @@ TEST_CASE("the version is printed on request")
 
 TEST_CASE("every command has a help with an example")
 {
-    for (const std::string command : {"", "run", "check", "explain", "inspect"}) {
+    for (const std::string command : {"", "run", "check", "explain", "inspect", "schema", "drive", "new"}) {
         CAPTURE(command);
         const ProgramResult result = ProgramFolder().run(command + " --help");
         CHECK(result.status == 0);

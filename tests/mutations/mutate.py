@@ -58,14 +58,14 @@ MUTATIONS = {
     ),
     "bond_force_left_in_the_moments": Mutation(
         "operator/sub_horizon.cpp",
-        "share += dyad(along, zeta) * Pack(-1.0);",
+        "share -= dyad(along, zeta);",
         "",
         _IDENTITIES,
     ),
     "bond_motion_over_its_own_length": Mutation(
         "operator/sub_horizon.cpp",
-        "maximum(squared, Pack(least_squared))",
-        "squared",
+        "maximum(dot(zeta, zeta), Pack(least_squared))",
+        "dot(zeta, zeta)",
         _IDENTITIES,
     ),
     "transposed_gradient": Mutation(

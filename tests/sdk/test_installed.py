@@ -18,6 +18,8 @@ import unittest
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
+from clean_environment import clean_environment
+
 KINDS = ("material", "geometry", "contact", "retention", "output")
 WITH_A_CASE = tuple(kind for kind in KINDS if kind != "retention")
 
@@ -25,12 +27,6 @@ WITH_A_CASE = tuple(kind for kind in KINDS if kind != "retention")
 WARNINGS = "-Wall -Wextra -Wpedantic -Werror -Wno-maybe-uninitialized -Wno-stringop-overflow"
 
 options: argparse.Namespace
-
-
-def clean_environment() -> dict[str, str]:
-    """The environment without what would lead to another installation."""
-    misleading = {"PERIPORO_PLUGIN_PATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "DESTDIR"}
-    return {name: value for name, value in os.environ.items() if name not in misleading}
 
 
 def done(command: list[str], folder: Path) -> str:

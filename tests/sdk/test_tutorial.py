@@ -19,6 +19,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from clean_environment import clean_environment
+
 SOURCE = Path(__file__).resolve().parents[2]
 PAGE = SOURCE / "plugins" / "README.md"
 
@@ -59,9 +61,7 @@ class Shell:
     _DONE = "the block is done"
 
     def __init__(self, folder: Path, home: Path):
-        misleading = {"PERIPORO_PLUGIN_PATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "DESTDIR"}
-        environment = {name: value for name, value in os.environ.items() if name not in misleading}
-        environment |= {
+        environment = clean_environment() | {
             "HOME": str(home),
             "CXX": options.compiler,
             "CXXFLAGS": options.flags,

@@ -7,6 +7,7 @@
 
 #include "periporo/plugin.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -68,5 +69,18 @@ public:
     /// `strain_increment` and `time_step` are not read.
     virtual void initialize(const MaterialBatch& batch, double overconsolidation_ratio) const = 0;
 };
+
+/// Makes of a settled block what the geostatic stage leaves: Material::initialize(), then the variables that are reset
+/// on release back to their initial values.
+inline void release(const Material& material, const MaterialBatch& batch, double overconsolidation_ratio)
+{
+    material.initialize(batch, overconsolidation_ratio);
+    const std::vector<StateVariable>& variables = material.state_variables();
+    const std::size_t rows = 6 + variables.size();
+    for (std::size_t s = 0; s < variables.size(); ++s)
+        if (variables[s].reset_on_release)
+            for (std::size_t p = 0; p < batch.packs; ++p)
+                std::fill_n(batch.bonds + (p * rows + 6 + s) * pack_width, pack_width, variables[s].initial);
+}
 
 } // namespace periporo

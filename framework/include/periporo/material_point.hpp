@@ -79,10 +79,7 @@ public:
     /// Sets the state variables from the stress, as after the geostatic stage.
     void initialize(double overconsolidation_ratio)
     {
-        material_->initialize(batch(rows_, strain_rows_, 0.0), overconsolidation_ratio);
-        for (std::size_t s = 0; s < material_->state_variables().size(); ++s)
-            if (material_->state_variables()[s].reset_on_release)
-                set_state(s, material_->state_variables()[s].initial);
+        release(*material_, batch(rows_, strain_rows_, 0.0), overconsolidation_ratio);
     }
 
     /// Advances by a strain increment [-] over a time step [s]. A failed step leaves the point as it was.

@@ -88,6 +88,14 @@ SymmetricTensor<Real> adjugate(const SymmetricTensor<Real>& a)
             a.yz * a.xz - a.xy * a.zz, a.xy * a.xz - a.xx * a.yz, a.xy * a.yz - a.yy * a.xz};
 }
 
+/// `a` in the lanes of the mask, `b` in the others; whatever stands there, not-finite numbers included, is gone.
+template <class Real>
+SymmetricTensor<Real> select(const Mask<Real>& mask, const SymmetricTensor<Real>& a, const SymmetricTensor<Real>& b)
+{
+    return {select(mask, a.xx, b.xx), select(mask, a.yy, b.yy), select(mask, a.zz, b.zz),
+            select(mask, a.xy, b.xy), select(mask, a.yz, b.yz), select(mask, a.xz, b.xz)};
+}
+
 /// A general tensor by rows; `xy` is row x, column y. A velocity gradient has L_xy = dv_x/dy.
 template <class Real>
 struct Tensor {
@@ -104,6 +112,11 @@ struct Tensor {
         xx += o.xx, xy += o.xy, xz += o.xz, yx += o.yx, yy += o.yy, yz += o.yz, zx += o.zx, zy += o.zy, zz += o.zz;
         return *this;
     }
+    Tensor& operator-=(const Tensor& o)
+    {
+        xx -= o.xx, xy -= o.xy, xz -= o.xz, yx -= o.yx, yy -= o.yy, yz -= o.yz, zx -= o.zx, zy -= o.zy, zz -= o.zz;
+        return *this;
+    }
     Tensor& operator*=(const Real& f)
     {
         xx *= f, xy *= f, xz *= f, yx *= f, yy *= f, yz *= f, zx *= f, zy *= f, zz *= f;
@@ -112,6 +125,14 @@ struct Tensor {
     friend Tensor operator+(Tensor a, const Tensor& b) { return a += b; }
     friend Tensor operator*(Tensor a, const Real& f) { return a *= f; }
 };
+
+template <class Real>
+Tensor<Real> select(const Mask<Real>& mask, const Tensor<Real>& a, const Tensor<Real>& b)
+{
+    return {select(mask, a.xx, b.xx), select(mask, a.xy, b.xy), select(mask, a.xz, b.xz),
+            select(mask, a.yx, b.yx), select(mask, a.yy, b.yy), select(mask, a.yz, b.yz),
+            select(mask, a.zx, b.zx), select(mask, a.zy, b.zy), select(mask, a.zz, b.zz)};
+}
 
 template <class Real>
 Real trace(const Tensor<Real>& a)

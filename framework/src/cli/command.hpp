@@ -26,6 +26,7 @@ void add_explain_command(CLI::App& program, Action& action);
 void add_inspect_command(CLI::App& program, Action& action);
 void add_dispersion_command(CLI::App& program, Action& action);
 void add_drive_command(CLI::App& program, Action& action);
+void add_schema_command(CLI::App& program, Action& action);
 void add_new_command(CLI::App& program, Action& action);
 
 /// What every command about a case understands.

@@ -31,6 +31,7 @@ int run_program(int count, char** arguments)
     periporo::cli::add_inspect_command(program, action);
     periporo::cli::add_dispersion_command(program, action);
     periporo::cli::add_drive_command(program, action);
+    periporo::cli::add_schema_command(program, action);
     periporo::cli::add_new_command(program, action);
     try {
         program.parse(count, arguments);

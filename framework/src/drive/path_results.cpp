@@ -7,13 +7,13 @@
 #include "case/resolved.hpp"
 #include "drive/stage_plan.hpp"
 #include "drive/yield_surface.hpp"
+#include "io/write_whole.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 namespace periporo {
@@ -69,17 +69,6 @@ std::string yield_surface_table(const PathRecord& record)
     append("initial", record.rows.front().point);
     append("final", record.rows.back().point);
     return rows.empty() ? rows : "moment,p [Pa],q [Pa]\n" + rows;
-}
-
-void write_whole(const fs::path& file, const std::string& text)
-{
-    const fs::path aside = file.string() + ".part";
-    std::ofstream stream(aside, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream)
-        throw std::runtime_error(fmt::format("cannot write {}", aside.string()));
-    fs::rename(aside, file);
 }
 
 /// "xx = -1000.0, yy = ..." of the components for which a value is there.

@@ -14,6 +14,8 @@ namespace periporo {
 /// A point's volume, its weight in all sums, does not grow beyond this multiple of its initial one; what opens further
 /// is a gap between grains and not soil. J itself goes on, so that the gap must close before the volume shrinks.
 /// Without the bound single grains of a thin rim reached J = 7, their stiffness grew with it, and the stable step fell.
+/// Soil of porosity 0.2 that opens by a quarter has one of 0.36, that of loose sand. With a bound of 2 the deposit of
+/// the quickstart is the same and takes an eighth more steps.
 inline constexpr double largest_volume_ratio = 1.25;
 
 struct Points {

@@ -5,6 +5,7 @@
 
 #include "operator/bond_forces.hpp"
 #include "operator/bond_update.hpp"
+#include "operator/bond_vector.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,10 @@ Tensor<double> tensor_at(const double* c)
 {
     return {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]};
 }
+Tensor<Pack> in_all_lanes(const Tensor<double>& t)
+{
+    return {t.xx, t.xy, t.xz, t.yx, t.yy, t.yz, t.zx, t.zy, t.zz};
+}
 void store_tensor(const Tensor<double>& t, double* c)
 {
     for (const double component : {t.xx, t.xy, t.xz, t.yx, t.yy, t.yz, t.zx, t.zy, t.zz})
@@ -43,12 +48,12 @@ void copy_in_frame_of(const Isometry& isometry, const double* from, double* to)
 
 /// The geometry of a pack of bonds.
 struct BondGeometry {
-    Pack x, y, z;    ///< zeta
-    Pack nx, ny, nz; ///< zeta/|zeta|^2; zero in lanes without a bond
-    Pack squared;    ///< |zeta|^2
-    Pack u, v, t;    ///< v_j - v_i
-    Pack omega;      ///< zero in lanes without a bond
-    Pack volume;     ///< of the neighbour
+    BondVector zeta;
+    BondVector along;  ///< zeta/|zeta|^2; zero in lanes without a bond
+    BondVector motion; ///< v_j - v_i
+    Pack squared;      ///< |zeta|^2
+    Pack omega;        ///< zero in lanes without a bond
+    Pack volume;       ///< of the neighbour
 
     BondGeometry(const Model& model, std::size_t point, const std::uint32_t* neighbours, const PackMask& bonds,
                  const Influence& influence)
@@ -56,18 +61,13 @@ struct BondGeometry {
         const NeighbourRecord& self = model.records[point];
         const std::array<Pack, 8> other =
             load_transposed<8>([&](std::size_t lane) { return model.records[neighbours[lane]].position; });
-        x = other[0] - self.position[0];
-        y = other[1] - self.position[1];
-        z = other[2] - self.position[2];
-        u = other[4] - self.velocity[0];
-        v = other[5] - self.velocity[1];
-        t = other[6] - self.velocity[2];
-        squared = x * x + y * y + z * z;
+        for (std::size_t c = 0; c < 3; ++c) {
+            zeta[c] = other[c] - self.position[c];
+            motion[c] = other[4 + c] - self.velocity[c];
+        }
+        squared = dot(zeta, zeta);
         const PackMask real = bonds && squared > Pack(0.0);
-        const Pack reciprocal = select(real, Pack(1.0) / squared, Pack(0.0));
-        nx = x * reciprocal;
-        ny = y * reciprocal;
-        nz = z * reciprocal;
+        along = times(select(real, Pack(1.0) / squared, Pack(0.0)), zeta);
         omega = select(real, influence(squared), Pack(0.0));
         volume = other[3];
     }
@@ -152,11 +152,10 @@ bool Evaluator::find_gradient(std::size_t point)
         const PackMask bonds = lane_mask(family.lanes(p));
         const BondGeometry g(model_, point, family.neighbours + p * pack_width, bonds, influence_);
         const Pack weight = g.omega * g.volume;
-        const Pack wx = weight * g.nx;
-        const Pack wy = weight * g.ny;
-        const Pack wz = weight * g.nz;
-        shape += {g.x * wx, g.y * wy, g.z * wz, g.x * wy, g.y * wz, g.x * wz};
-        moment += {g.u * wx, g.u * wy, g.u * wz, g.v * wx, g.v * wy, g.v * wz, g.t * wx, g.t * wy, g.t * wz};
+        const BondVector weighted = times(weight, g.along);
+        shape += {g.zeta[0] * weighted[0], g.zeta[1] * weighted[1], g.zeta[2] * weighted[2],
+                  g.zeta[0] * weighted[1], g.zeta[1] * weighted[2], g.zeta[0] * weighted[2]};
+        moment += dyad(g.motion, weighted);
         weights += weight;
         too_short = too_short || (bonds && g.squared < least_squared_);
     }
@@ -212,7 +211,7 @@ double Evaluator::find_activity(std::size_t point)
 void Evaluator::begin_bonds(std::size_t point, const HeldBonds& held, BondStress& stress, std::vector<KeptBonds>& kept)
 {
     const FamilyView family = model_.families[point];
-    const Tensor<double> own_gradient = tensor_at(first_row(point) + gradient_at);
+    const Tensor<Pack> own_gradient = in_all_lanes(tensor_at(first_row(point) + gradient_at));
     for (std::size_t p = 0; p < held.packs; ++p) {
         const std::uint32_t* neighbours = held.neighbours + p * pack_width;
         std::uint8_t lanes = 0;
@@ -223,15 +222,11 @@ void Evaluator::begin_bonds(std::size_t point, const HeldBonds& held, BondStress
         const BondGeometry g(model_, point, neighbours, active, influence_);
         const auto other = load_transposed<lent_values>([&](std::size_t lane) { return first_row(neighbours[lane]); });
         Tensor<Pack> l{other[0], other[1], other[2], other[3], other[4], other[5], other[6], other[7], other[8]};
-        l += Tensor<Pack>{own_gradient.xx, own_gradient.xy, own_gradient.xz, own_gradient.yx, own_gradient.yy,
-                          own_gradient.yz, own_gradient.zx, own_gradient.zy, own_gradient.zz};
+        l += own_gradient;
         l *= Pack(0.5);
-        const Pack ru = g.u - (l.xx * g.x + l.xy * g.y + l.xz * g.z);
-        const Pack rv = g.v - (l.yx * g.x + l.yy * g.y + l.yz * g.z);
-        const Pack rt = g.t - (l.zx * g.x + l.zy * g.y + l.zz * g.z);
-        l += {ru * g.nx, ru * g.ny, ru * g.nz, rv * g.nx, rv * g.ny, rv * g.nz, rt * g.nx, rt * g.ny, rt * g.nz};
+        l += dyad(minus(g.motion, times(l, g.zeta)), g.along);
         const Tensor<Pack> at_middle = at_mid_step(l, 2.0 * evaluation_.gradient_lag());
-        stress.begin(p, where_active(active, at_middle), lanes);
+        stress.begin(p, select(active, at_middle, Tensor<Pack>{}), lanes);
         kept.push_back({g, other[reciprocal_weight_at]});
     }
 }
@@ -250,25 +245,22 @@ void Evaluator::add_at_ends(std::size_t point, std::size_t block, const HeldBond
         const BondGeometry& g = kept[p].geometry;
         const PackMask active = lane_mask(stress.active(p));
         const BondStress::Outcome bond = stress.end(p);
-        const SymmetricTensor<Pack>& s = bond.stress;
         const Pack mutual =
             select(active, g.omega * (kept[p].reciprocal_weight + own_reciprocal_weight), Pack(0.0)); // S_ij
-        const Pack tx = s.xx * g.nx + s.xy * g.ny + s.xz * g.nz;
-        const Pack ty = s.xy * g.nx + s.yy * g.ny + s.yz * g.nz;
-        const Pack tz = s.xz * g.nx + s.yz * g.ny + s.zz * g.nz;
-        const Pack half = 0.5 * mutual;
-        const std::array<Pack, 9> projected{
-            half * (s.xx - tx * g.x), half * (s.xy - tx * g.y), half * (s.xz - tx * g.z),
-            half * (s.xy - ty * g.x), half * (s.yy - ty * g.y), half * (s.yz - ty * g.z),
-            half * (s.xz - tz * g.x), half * (s.yz - tz * g.y), half * (s.zz - tz * g.z)};
+        const BondVector traction = times(full(bond.stress), g.along);
+        Tensor<Pack> projected = full(bond.stress);
+        projected -= dyad(traction, g.zeta);
+        projected *= 0.5 * mutual;
         const Pack product = mutual * g.volume * self_volume;
-        const std::array<Pack, 3> force{product * tx, product * ty, product * tz};
+        const BondVector force = times(product, traction);
         const Pack own_share = g.omega * g.volume * own_reciprocal_weight;
         const Pack other_share = g.omega * self_volume * kept[p].reciprocal_weight;
         std::array<Pack, place_values> at_other;
-        for (std::size_t c = 0; c < 9; ++c) {
-            own_sums[c] += g.volume * projected[c];
-            at_other[c] = self_volume * projected[c];
+        std::size_t c9 = 0;
+        for (const Pack& component : {projected.xx, projected.xy, projected.xz, projected.yx, projected.yy,
+                                      projected.yz, projected.zx, projected.zy, projected.zz}) {
+            own_sums[c9] += g.volume * component;
+            at_other[c9++] = self_volume * component;
         }
         for (std::size_t c = 0; c < 3; ++c) {
             own_sums[9 + c] += force[c];
@@ -341,18 +333,17 @@ void Evaluator::collect(std::size_t point)
 void Evaluator::add_moments(std::size_t point, BondForces& forces)
 {
     const HeldBonds held = model_.held(point);
-    const double* own = second_row(point) + moment_at;
+    const Tensor<Pack> own = in_all_lanes(tensor_at(second_row(point) + moment_at));
     const double self_volume = model_.records[point].volume;
-    std::array<Pack, 3> sum{Pack(0.0), Pack(0.0), Pack(0.0)};
+    BondVector sum{Pack(0.0), Pack(0.0), Pack(0.0)};
     for (std::size_t p = 0; p < held.packs; ++p) {
         const std::uint32_t* neighbours = held.neighbours + p * pack_width;
         const BondGeometry g(model_, point, neighbours, lane_mask(held.lanes(p)), influence_);
         const auto m = load_transposed<lent_values>([&](std::size_t lane) { return second_row(neighbours[lane]); });
         const Pack weight = g.omega * g.volume * self_volume;
-        const auto along = [&](std::size_t c) {
-            return weight * ((m[c] + own[c]) * g.nx + (m[c + 1] + own[c + 1]) * g.ny + (m[c + 2] + own[c + 2]) * g.nz);
-        };
-        const std::array<Pack, 3> force{along(0), along(3), along(6)};
+        Tensor<Pack> both{m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
+        both += own;
+        const BondVector force = times(weight, times(both, g.along));
         for (std::size_t c = 0; c < 3; ++c)
             sum[c] += force[c];
         forces.take_from_points(model_, model_.families[point], held, p, force);

@@ -35,14 +35,6 @@ inline PackMask lane_mask(std::uint8_t bits)
     return load_pack(lane_factors.rows[bits]) > 0.5;
 }
 
-/// Zero where the mask does not hold; whatever stood there, not-finite numbers included, is gone.
-inline SymmetricTensor<Pack> where_active(const PackMask& mask, const SymmetricTensor<Pack>& t)
-{
-    const Pack zero = 0.0;
-    return {select(mask, t.xx, zero), select(mask, t.yy, zero), select(mask, t.zz, zero),
-            select(mask, t.xy, zero), select(mask, t.yz, zero), select(mask, t.xz, zero)};
-}
-
 /// Six rows of a pack as a symmetric tensor, and back.
 inline SymmetricTensor<Pack> load_symmetric(const double* rows)
 {
@@ -82,14 +74,6 @@ Tensor<Real> step_rotation(const Tensor<Real>& gradient, double time_step)
             f * (x * z - y),           f * (y * z + x),           1.0 - f * (x * x + y * y)};
 }
 
-inline Tensor<Pack> where_active(const PackMask& mask, const Tensor<Pack>& t)
-{
-    const Pack zero = 0.0;
-    return {select(mask, t.xx, zero), select(mask, t.xy, zero), select(mask, t.xz, zero),
-            select(mask, t.yx, zero), select(mask, t.yy, zero), select(mask, t.yz, zero),
-            select(mask, t.zx, zero), select(mask, t.zy, zero), select(mask, t.zz, zero)};
-}
-
 /// Buffers of one thread for the bonds of one point; they only ever grow.
 struct StressWorkspace {
     AlignedVector<double> strain;      ///< packs x 6: `advance`: D dt, else D
@@ -127,8 +111,8 @@ public:
         }
         const double dt = evaluation_.time_step;
         double* bond = state_ + pack * rows_ * pack_width;
-        const SymmetricTensor<Pack> stress =
-            where_active(lane_mask(active), rotated(load_symmetric(bond), step_rotation(gradient, dt)));
+        const SymmetricTensor<Pack> stress = select(
+            lane_mask(active), rotated(load_symmetric(bond), step_rotation(gradient, dt)), SymmetricTensor<Pack>{});
         const SymmetricTensor<Pack> increment = symmetric_part(gradient) * Pack(dt);
         store_symmetric(stress, bond);
         store_symmetric(increment, strain);
@@ -149,7 +133,8 @@ public:
         const SymmetricTensor<Pack> strain = load_symmetric(workspace_.strain.data() + pack * 6 * pack_width);
         Outcome outcome;
         if (evaluation_.stress == StressUpdate::tangent) {
-            outcome.stress = where_active(active, elastic_stress<Pack>({}, strain, bulk_modulus_, shear_modulus_));
+            outcome.stress = select(active, elastic_stress<Pack>({}, strain, bulk_modulus_, shear_modulus_),
+                                    SymmetricTensor<Pack>{});
             outcome.work = double_contraction(outcome.stress, strain);
             outcome.dilation = 0.0;
             return outcome;
@@ -159,7 +144,7 @@ public:
             water = SymmetricTensor<Pack>::isotropic(load_pack(workspace_.suction.data() + pack * pack_width) *
                                                      load_pack(workspace_.saturation.data() + pack * pack_width));
         const SymmetricTensor<Pack> stress = load_symmetric(state_ + pack * rows_ * pack_width);
-        outcome.stress = where_active(active, stress + water);
+        outcome.stress = select(active, stress + water, SymmetricTensor<Pack>{});
         if (evaluation_.stress == StressUpdate::keep) {
             outcome.work = double_contraction(outcome.stress, strain);
             outcome.dilation = 0.0;

@@ -5,6 +5,7 @@
 
 #include "operator/bond_forces.hpp"
 #include "operator/bond_update.hpp"
+#include "operator/bond_vector.hpp"
 #include "operator/sub_horizon_sums.hpp"
 
 #include <algorithm>
@@ -52,38 +53,10 @@ struct Workspace {
     }
 };
 
-using Vector = std::array<Pack, 3>;
-
-/// Three rows of a pack as a vector, and back.
-Vector load_vector(const double* rows)
-{
-    return {load_pack(rows), load_pack(rows + pack_width), load_pack(rows + 2 * pack_width)};
-}
-void store_vector(const Vector& v, double* rows)
-{
-    for (std::size_t c = 0; c < 3; ++c)
-        store_pack(v[c], rows + c * pack_width);
-}
-
-Vector operator*(const Tensor<Pack>& t, const Vector& v)
-{
-    return {t.xx * v[0] + t.xy * v[1] + t.xz * v[2], t.yx * v[0] + t.yy * v[1] + t.yz * v[2],
-            t.zx * v[0] + t.zy * v[1] + t.zz * v[2]};
-}
-
-/// a (x) b
-Tensor<Pack> dyad(const Vector& a, const Vector& b)
-{
-    return {a[0] * b[0], a[0] * b[1], a[0] * b[2], a[1] * b[0], a[1] * b[1],
-            a[1] * b[2], a[2] * b[0], a[2] * b[1], a[2] * b[2]};
-}
-
 /// zeta/max(|zeta|^2, l^2): turns a motion between the ends of a bond into a gradient along it.
-Vector along_bond(const Vector& zeta, double least_squared)
+BondVector along_bond(const BondVector& zeta, double least_squared)
 {
-    const Pack squared = zeta[0] * zeta[0] + zeta[1] * zeta[1] + zeta[2] * zeta[2];
-    const Pack reciprocal = Pack(1.0) / maximum(squared, Pack(least_squared));
-    return {zeta[0] * reciprocal, zeta[1] * reciprocal, zeta[2] * reciprocal};
+    return times(Pack(1.0) / maximum(dot(zeta, zeta), Pack(least_squared)), zeta);
 }
 
 struct FamilySums {
@@ -166,15 +139,10 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
         const Pack reciprocal = select(active, Pack(1.0) / behind.determinant, zero);
         Tensor<Pack> gradient = moment * behind.tensor * reciprocal;
         if (least_squared) {
-            const Vector motion = load_vector(&w.motion[p * 3 * pack_width]);
-            Vector zeta = load_vector(&w.zeta[p * 3 * pack_width]);
-            for (std::size_t c = 0; c < 3; ++c)
-                zeta[c] -= lag * motion[c];
-            const Vector seen = gradient * zeta;
-            Vector unseen;
-            for (std::size_t c = 0; c < 3; ++c)
-                unseen[c] = select(active, motion[c] - seen[c], zero);
-            gradient += dyad(unseen, along_bond(zeta, *least_squared));
+            const BondVector motion = load_vector(&w.motion[p * 3 * pack_width]);
+            const BondVector zeta = minus(load_vector(&w.zeta[p * 3 * pack_width]), times(Pack(lag), motion));
+            const BondVector unseen = minus(motion, times(gradient, zeta));
+            gradient += dyad(unseen, times(select(active, Pack(1.0), zero), along_bond(zeta, *least_squared)));
         }
         stress.begin(p, gradient, lane_bits(active));
     }
@@ -202,10 +170,10 @@ void stress_moments(Model& model, std::size_t point, const FamilyView& family, c
         model.bonds.active[family.first_pack + p] = stress.active(p);
         Tensor<Pack> share = full(bond.stress * (weight * moment_factor));
         if (least_squared) {
-            const Vector zeta = load_vector(&w.zeta[p * 3 * pack_width]);
-            const Vector along = share * along_bond(zeta, *least_squared);
+            const BondVector zeta = load_vector(&w.zeta[p * 3 * pack_width]);
+            const BondVector along = times(share, along_bond(zeta, *least_squared));
             store_vector(along, &w.along[p * 3 * pack_width]);
-            share += dyad(along, zeta) * Pack(-1.0);
+            share -= dyad(along, zeta);
         }
         const Tensor<Pack> m = share * load_symmetric(w.inverse_shape.data() + p * 6 * pack_width);
         store_transposed<moment_values>({m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy},
@@ -223,18 +191,16 @@ void add_forces(const Model& model, std::size_t point, const FamilyView& family,
                 const BondRows<moment_values, true>& moments, const Workspace& w, BondForces& forces)
 {
     const double self_volume = model.records[point].volume;
-    Vector sum{Pack(0.0), Pack(0.0), Pack(0.0)};
+    BondVector sum{Pack(0.0), Pack(0.0), Pack(0.0)};
     for (std::size_t p = 0; p < family.packs; ++p) {
         const std::size_t at = p * pack_width;
         const auto m = load_transposed<moment_values>([&](std::size_t lane) { return moments.row(at + lane); });
         const Tensor<Pack> moment{m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], load_pack(&moments.column[at])};
         const Pack omega = load_pack(&w.omega[at]);
         const Pack weight = omega * load_pack(&w.volume[at]) * self_volume;
-        Vector force = moment * load_vector(&w.zeta[3 * at]);
-        for (Pack& component : force)
-            component *= weight;
+        BondVector force = times(weight, times(moment, load_vector(&w.zeta[3 * at])));
         if (along_bonds) {
-            const Vector along = load_vector(&w.along[3 * at]);
+            const BondVector along = load_vector(&w.along[3 * at]);
             for (std::size_t c = 0; c < 3; ++c)
                 force[c] += self_volume * along[c];
         }

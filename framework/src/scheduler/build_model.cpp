@@ -248,12 +248,7 @@ void initialize_materials(Model& model, const ForceState& force_state)
         batch.bonds = held.state;
         batch.suction = workspace.suction.data();
         batch.saturation = workspace.saturation.data();
-        const Material& material = *model.body_of(i).material;
-        material.initialize(batch, model.body_of(i).overconsolidation_ratio);
-        for (std::size_t s = 0; s < material.state_variables().size(); ++s)
-            if (material.state_variables()[s].reset_on_release)
-                for (std::size_t h = 0; h < held.packs * pack_width; ++h)
-                    held.bond(h)[(6 + s) * pack_width] = material.state_variables()[s].initial;
+        release(*model.body_of(i).material, batch, model.body_of(i).overconsolidation_ratio);
     }
     collect_point_variables(model, force_state);
 }

@@ -3,9 +3,7 @@
 //
 #include "scheduler/summary.hpp"
 
-#include <fmt/format.h>
-#include <fstream>
-#include <stdexcept>
+#include "io/write_whole.hpp"
 
 namespace periporo {
 
@@ -50,13 +48,7 @@ nlohmann::json summary_of(const CaseDescription& description, const Model& model
 
 void write_json(const nlohmann::json& content, const std::filesystem::path& file)
 {
-    const std::filesystem::path aside = file.string() + ".part";
-    std::ofstream stream(aside);
-    stream << content.dump(2) << '\n';
-    stream.close();
-    if (!stream)
-        throw std::runtime_error(fmt::format("cannot write {}", aside.string()));
-    std::filesystem::rename(aside, file);
+    write_whole(file, content.dump(2) + '\n');
 }
 
 } // namespace periporo

@@ -26,12 +26,4 @@ Mask<Real> usable(const SymmetricTensor<Real>& trial, const std::array<Real, sta
     return result && Mask<Real>(time_step >= 0.0 && time_step <= largest);
 }
 
-/// `a` in the lanes of the mask, `b` in the others.
-template <class Real>
-SymmetricTensor<Real> select(const Mask<Real>& mask, const SymmetricTensor<Real>& a, const SymmetricTensor<Real>& b)
-{
-    return {select(mask, a.xx, b.xx), select(mask, a.yy, b.yy), select(mask, a.zz, b.zz),
-            select(mask, a.xy, b.xy), select(mask, a.yz, b.yz), select(mask, a.xz, b.xz)};
-}
-
 } // namespace periporo

@@ -120,7 +120,7 @@ public:
         }
         const SymmetricTensor<Real> plastic =
             deviatoric * solution.shear_factor - SymmetricTensor<Real>::isotropic(solution.mean_stress);
-        assign(result.stress, plastic, yields);
+        result.stress = select(yields, plastic, result.stress);
         const Real strain = select(yields, solution.volumetric_strain, Real(0.0));
         const Real shear = 2.0 * inverse_squared_slope_ * solution.multiplier * solution.shear_factor;
         result.state[log_preconsolidation] += strain * (1.0 / plastic_index_);
@@ -170,13 +170,6 @@ private:
         return {parameters.real("bulk_modulus"),
                 6.0 * parameters.real("shear_modulus") / square(parameters.real("critical_state_slope")),
                 parameters.real("tensile_strength"), floor, std::log(floor)};
-    }
-
-    template <class Real>
-    static void assign(SymmetricTensor<Real>& to, const SymmetricTensor<Real>& from, const Mask<Real>& lanes)
-    {
-        to = {select(lanes, from.xx, to.xx), select(lanes, from.yy, to.yy), select(lanes, from.zz, to.zz),
-              select(lanes, from.xy, to.xy), select(lanes, from.yz, to.yz), select(lanes, from.xz, to.xz)};
     }
 
     double tensile_strength() const { return return_.tensile_strength; }

@@ -52,7 +52,7 @@ TEST_CASE("the exponential of zero is one, exactly")
 
 TEST_CASE("the exponential is held at the ends of its interval")
 {
-    CHECK(lane_of(exponential(Pack(-1e9)), 0) == doctest::Approx(std::exp(-708.0)).epsilon(1e-15));
+    CHECK(lane_of(exponential(Pack(-1e9)), 0) == doctest::Approx(std::exp(-708.0)).epsilon(1e-15).scale(0.0));
     CHECK(lane_of(exponential(Pack(1e9)), 0) == doctest::Approx(std::exp(709.0)).epsilon(1e-15));
 }
 

@@ -104,11 +104,11 @@ TEST_CASE("two grains collide in half a sine: duration pi/omega, deepest overlap
     }
     // Verlet is of second order: omega dt = pi/1000 gives 1e-6, and the end is seen within one step
     CHECK(std::abs(steps - 1000) <= 2);
-    CHECK(deepest == doctest::Approx(v / omega).epsilon(1e-5));
+    CHECK(deepest == doctest::Approx(v / omega).epsilon(1e-5).scale(0.0));
     const double after = model.points.velocity[1].x() - model.points.velocity[0].x();
-    CHECK(after == doctest::Approx(v).epsilon(1e-5));
+    CHECK(after == doctest::Approx(v).epsilon(1e-5).scale(0.0));
     CHECK(m0 * model.points.velocity[0].x() + m1 * model.points.velocity[1].x() ==
-          doctest::Approx(m0 * v).epsilon(1e-13));
+          doctest::Approx(m0 * v).epsilon(1e-13).scale(0.0));
     CHECK(std::abs(dynamics.ledger().error()) < 1e-5 * 0.5 * m0 * v * v);
 }
 
@@ -162,9 +162,10 @@ TEST_CASE("a block slides down an incline with g (sin a - mu cos a)")
     double speed = 0.0;
     const double travel = travel_on_incline(angle, mu, time, speed);
     const double a = 9.81 * (std::sin(angle) - mu * std::cos(angle));
-    // friction acts from the first step on: the first half kick is without it, half a step of g sin a
-    CHECK(speed == doctest::Approx(a * time).epsilon(1e-3));
-    CHECK(travel == doctest::Approx(0.5 * a * time * time).epsilon(1e-3));
+    // Friction acts from the first step on: the first half kick is without it and leaves the block half a step of
+    // mu g cos a, 2e-4 of the speed, too fast.
+    CHECK(speed == doctest::Approx(a * time).epsilon(1e-3).scale(0.0));
+    CHECK(travel == doctest::Approx(0.5 * a * time * time).epsilon(1e-3).scale(0.0));
 }
 
 TEST_CASE("a block sticks below the angle of friction, to round-off, and slides just above it")
@@ -175,7 +176,10 @@ TEST_CASE("a block sticks below the angle of friction, to round-off, and slides 
     const double angle = std::atan(mu) - 0.01, g = 9.81, dt = 1e-4;
     const double start = 0.5 * dt * g * std::sin(angle);
     const double braked = start * start / (2.0 * g * (mu * std::cos(angle) - std::sin(angle)));
-    CHECK(travel_on_incline(angle, mu, 0.5, speed) == doctest::Approx(braked).epsilon(0.1));
+    // It moves on by v dt before it is braked at all, v dt/2 more than under steady braking. Of 20 steps the last is
+    // shortened: an eighth of a step's braking, 6e-4 of the travel, is left open.
+    CHECK(travel_on_incline(angle, mu, 0.5, speed) ==
+          doctest::Approx(braked + 0.5 * start * dt).epsilon(1e-3).scale(0.0));
     CHECK(std::abs(speed) < 1e-12);
     CHECK(travel_on_incline(std::atan(mu) + 0.01, mu, 0.5, speed) > 0.01);
 }

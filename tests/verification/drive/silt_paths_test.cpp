@@ -49,11 +49,13 @@ TEST_CASE("isotropic loading to a pressure follows the virgin line, and the loop
             continue;
         // the stress is met to a billionth in each step
         CHECK(-trace(row.point.strain()) ==
-              doctest::Approx((p - p0) / bulk_modulus + plastic_index * std::log(p / (1.25 * p0))).epsilon(1e-7));
+              doctest::Approx((p - p0) / bulk_modulus + plastic_index * std::log(p / (1.25 * p0)))
+                  .epsilon(1e-7)
+                  .scale(0.0));
     }
     CHECK(mean_pressure(path.rows()[200].point.stress()) == doctest::Approx(50e3).epsilon(1e-8));
     CHECK(preconsolidation(path.end()) == doctest::Approx(400e3).epsilon(1e-7));
-    CHECK(trace(path.end().strain()) == doctest::Approx(trace(loaded.strain())).epsilon(1e-6));
+    CHECK(trace(path.end().strain()) == doctest::Approx(trace(loaded.strain())).epsilon(1e-6).scale(0.0));
 }
 
 TEST_CASE("the drained triaxial path keeps q = 3 (p - p0) and ends in the critical state q = M p, p = 3 p0/(3 - M)")

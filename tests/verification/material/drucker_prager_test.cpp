@@ -11,7 +11,6 @@ using namespace periporo::test;
 
 namespace {
 
-using Point = periporo::MaterialPoint;
 const double sin_friction = std::sin(35 * degree);
 const double cos_friction = std::cos(35 * degree);
 
@@ -31,7 +30,7 @@ TEST_CASE("the cone of extension has the strength and dilation of Mohr-Coulomb i
 {
     const double cohesion = 100.0;
     const LawMaterial<DruckerPrager> material(sand<DruckerPrager>({{"cohesion", cohesion}}, "extension"));
-    Point point = sheared(material, 1e-4, radial);
+    MaterialPoint point = sheared(material, 1e-4, radial);
     // the lateral stress of 1 kPa is the larger pressure now: 1 kPa = N s + 2 c sqrt(N)
     const double ratio = (1.0 + sin_friction) / (1.0 - sin_friction);
     CHECK(-point.stress().zz == doctest::Approx((1000.0 - 2.0 * cohesion * std::sqrt(ratio)) / ratio).epsilon(1e-9));
@@ -50,7 +49,7 @@ TEST_CASE("the cone of plane strain ends in plane strain at the strength and dil
         const double cohesion = 700.0;
         const LawMaterial<DruckerPrager> material(
             sand<DruckerPrager>({{"cohesion", cohesion}, {"dilatancy_angle", dilatancy}}, "plane_strain"));
-        Point point = sheared(material, -1e-3, in_plane);
+        MaterialPoint point = sheared(material, -1e-3, in_plane);
         const Stress stress = point.stress();
         const double radius = 0.5 * (stress.xx - stress.zz);
         const double centre = -0.5 * (stress.xx + stress.zz);
@@ -116,7 +115,7 @@ TEST_CASE("a cut-off at the tip of the cone leaves no shear stress there")
 TEST_CASE("flow without normality is stiffer than the elastic law by (1/cos t - 1)/2 in one direction, more in none")
 {
     const LawMaterial<DruckerPrager> material(sand<DruckerPrager>());
-    const Point point = sheared(material, -1e-4, radial);
+    const MaterialPoint point = sheared(material, -1e-4, radial);
     // strains of unit elastic energy: the angle t between the gradient of f and the flow lies in their plane
     const Stress deviatoric = deviator(point.stress());
     const Strain shear = deviatoric * (1.0 / (norm(deviatoric) * std::sqrt(2.0 * shear_modulus)));
@@ -126,7 +125,7 @@ TEST_CASE("flow without normality is stiffer than the elastic law by (1/cos t - 
     for (int n = 0; n < 1000; ++n) {
         const double angle = 2.0 * std::numbers::pi * n / 1000;
         const Strain strain = (shear * std::cos(angle) + volume * std::sin(angle)) * size;
-        Point moved = point;
+        MaterialPoint moved = point;
         moved.step(strain, time_step);
         stiffest = std::max(stiffest, double_contraction(moved.stress() - point.stress(), strain) / (size * size));
     }

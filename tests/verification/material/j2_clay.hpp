@@ -6,7 +6,6 @@
 
 #include "law_driver.hpp"
 #include "material/j2_plasticity/j2_plasticity.hpp"
-#include "periporo/material_point.hpp"
 
 namespace periporo::test {
 

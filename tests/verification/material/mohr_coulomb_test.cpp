@@ -17,7 +17,6 @@ using namespace periporo::test;
 
 namespace {
 
-using Point = periporo::MaterialPoint;
 const double sin_friction = std::sin(35 * degree);
 const double cos_friction = std::cos(35 * degree);
 const double sin_dilatancy = std::sin(10 * degree);
@@ -67,7 +66,7 @@ TEST_CASE("triaxial extension ends at the strength and dilation of the same plan
 {
     const double cohesion = 100.0;
     const LawMaterial<MohrCoulomb> material(sand<MohrCoulomb>({{"cohesion", cohesion}}));
-    Point point = sheared(material, 1e-4, radial);
+    MaterialPoint point = sheared(material, 1e-4, radial);
     const double ratio = (1.0 + sin_friction) / (1.0 - sin_friction);
     CHECK(-point.stress().zz == doctest::Approx((1000.0 - 2.0 * cohesion * std::sqrt(ratio)) / ratio).epsilon(1e-9));
     const Strain before = point.strain();
@@ -79,7 +78,7 @@ TEST_CASE("triaxial extension ends at the strength and dilation of the same plan
 TEST_CASE("plane strain ends at N with the axial strain of steady flow (1 - sin psi)/(1 + sin psi) of the lateral one")
 {
     const LawMaterial<MohrCoulomb> material(sand<MohrCoulomb>());
-    Point point = sheared(material, -1e-4, in_plane);
+    MaterialPoint point = sheared(material, -1e-4, in_plane);
     const double ratio = (1.0 + sin_friction) / (1.0 - sin_friction);
     CHECK(-point.stress().zz == doctest::Approx(1000.0 * ratio).epsilon(1e-9));
     CHECK(point.stress().yy > point.stress().zz); // between the two others: one plane flows
@@ -94,7 +93,7 @@ TEST_CASE("Drucker-Prager matched in compression takes the same path through tri
 {
     const LawMaterial<MohrCoulomb> pyramid(sand<MohrCoulomb>({{"cohesion", 200.0}}));
     const LawMaterial<DruckerPrager> cone(sand<DruckerPrager>({{"cohesion", 200.0}}));
-    Point one(pyramid, Stress::isotropic(-1000.0)), other(cone, Stress::isotropic(-1000.0));
+    MaterialPoint one(pyramid, Stress::isotropic(-1000.0)), other(cone, Stress::isotropic(-1000.0));
     for (int n = 0; n < 200; ++n) {
         step_holding_xx(one, -1e-5, radial);
         step_holding_xx(other, -1e-5, radial);

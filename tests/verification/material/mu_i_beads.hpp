@@ -6,7 +6,6 @@
 
 #include "law_driver.hpp"
 #include "material/mu_i_rheology/mu_i_rheology.hpp"
-#include "periporo/material_point.hpp"
 
 namespace periporo::test {
 

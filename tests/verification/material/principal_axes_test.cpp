@@ -4,7 +4,7 @@
 // Principal values and directions: of any tensor, to round-off.
 #include "law_driver.hpp"
 #include "material/mohr_coulomb/principal_axes.hpp"
-#include "pack_of_points.hpp"
+#include "periporo/kit/packed.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
@@ -91,12 +91,12 @@ TEST_CASE("a pack gives back the tensors of its lanes")
 {
     Random random;
     for (int n = 0; n < 2000; ++n) {
-        Lanes<0> lanes{};
+        std::vector<LawInput<double, 0>> lanes(pack_width);
         for (auto& lane : lanes)
             lane.stress = random.number() > 0.0 ? random.tensor(1e4) : with_values({1.0, 1.0, 3.0}, random.rotation());
-        const PrincipalAxes<Pack> axes(packed(lanes).stress);
+        const PrincipalAxes<Pack> axes(kit::packed<Pack>(lanes).stress);
         const auto found = axes.tensor(axes.values);
         for (std::size_t lane = 0; lane < pack_width; ++lane)
-            CHECK(norm(lane_of(found, lane) - lanes[lane].stress) <= round_off * norm(lanes[lane].stress));
+            CHECK(norm(kit::lane_of_tensor(found, lane) - lanes[lane].stress) <= round_off * norm(lanes[lane].stress));
     }
 }

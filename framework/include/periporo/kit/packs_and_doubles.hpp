@@ -5,58 +5,13 @@
 #pragma once
 
 #include "periporo/kit/block.hpp"
-#include "periporo/material_law.hpp"
+#include "periporo/kit/packed.hpp"
 
 #include <string>
 
 namespace periporo::kit {
 
 namespace detail {
-
-/// Inputs of the lanes of a Real, one after the other in the lanes.
-template <class Real, std::size_t state_count>
-LawInput<Real, state_count> packed(const std::vector<LawInput<double, state_count>>& lanes)
-{
-    const auto gather = [&](auto value) {
-        if constexpr (std::is_same_v<Real, PackPair>)
-            return PackPair(Pack([&](auto lane) { return value(lanes[lane]); }),
-                            Pack([&](auto lane) { return value(lanes[lane + pack_width]); }));
-        else
-            return Pack([&](auto lane) { return value(lanes[lane]); });
-    };
-    const auto tensor = [&](auto member) {
-        return SymmetricTensor<Real>{
-            gather([&](auto& i) { return (i.*member).xx; }), gather([&](auto& i) { return (i.*member).yy; }),
-            gather([&](auto& i) { return (i.*member).zz; }), gather([&](auto& i) { return (i.*member).xy; }),
-            gather([&](auto& i) { return (i.*member).yz; }), gather([&](auto& i) { return (i.*member).xz; })};
-    };
-    using Single = LawInput<double, state_count>;
-    LawInput<Real, state_count> input;
-    input.stress = tensor(&Single::stress);
-    input.strain_increment = tensor(&Single::strain_increment);
-    for (std::size_t s = 0; s < state_count; ++s)
-        input.state[s] = gather([&](auto& i) { return i.state[s]; });
-    input.suction = gather([](auto& i) { return i.suction; });
-    input.saturation = gather([](auto& i) { return i.saturation; });
-    input.time_step = lanes[0].time_step;
-    return input;
-}
-
-template <class Real>
-SymmetricTensor<double> lane_of_tensor(const SymmetricTensor<Real>& a, std::size_t lane)
-{
-    return {lane_of(a.xx, lane), lane_of(a.yy, lane), lane_of(a.zz, lane),
-            lane_of(a.xy, lane), lane_of(a.yz, lane), lane_of(a.xz, lane)};
-}
-
-template <class Real, std::size_t state_count>
-std::vector<double> lane_of_state(const std::array<Real, state_count>& state, std::size_t lane)
-{
-    std::vector<double> values;
-    for (const Real& value : state)
-        values.push_back(lane_of(value, lane));
-    return values;
-}
 
 /// Compares an update of a pack or a pair with those of its lanes alone.
 template <class Real, class Law, class Input>
@@ -99,15 +54,14 @@ Faults check_packs(const Law& law, const Material& material, const Range& range 
             lane.time_step = range.time_step;
         }
         const std::vector<Input> first(lanes.begin(), lanes.begin() + static_cast<std::ptrdiff_t>(pack_width));
-        const auto initial =
-            law.template initial_state<Pack>(detail::packed<Pack>(first), range.overconsolidation_ratio);
+        const auto initial = law.template initial_state<Pack>(packed<Pack>(first), range.overconsolidation_ratio);
         for (std::size_t n = 0; n < lanes.size(); ++n) {
             lanes[n].state = law.template initial_state<double>(lanes[n], range.overconsolidation_ratio);
             if (n >= pack_width)
                 continue;
             const std::string fault =
-                difference({lanes[n].stress, detail::lane_of_state(initial, n)},
-                           {lanes[n].stress, detail::lane_of_state(lanes[n].state, 0)}, material, 0.0, range.accuracy);
+                difference({lanes[n].stress, lane_of_state(initial, n)},
+                           {lanes[n].stress, lane_of_state(lanes[n].state, 0)}, material, 0.0, range.accuracy);
             if (!fault.empty())
                 return {sentence("packs: of an initial state by packs, in lane ", n, " ", fault)};
         }
