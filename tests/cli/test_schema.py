@@ -67,7 +67,7 @@ class Schema(unittest.TestCase):
         self.assertEqual(horizon["default"], 3.015)
         self.assertIn("Horizon delta in spacings", horizon["description"])
         spacing = self.validator.schema["properties"]["discretization"]["properties"]["spacing"]
-        self.assertIn("[m]", spacing["description"])
+        self.assertIn("(m, > 0)", spacing["description"])
 
 
 if __name__ == "__main__":

@@ -19,6 +19,13 @@ namespace periporo {
 
 enum class ParameterType { real, integer, boolean, text, real_list, text_list };
 
+/// What a text of a case stands for, beyond itself.
+enum class Naming {
+    nothing,
+    file,     ///< a file; the plugin gets its full path
+    geometry, ///< a [geometry.NAME] of the case; see Geometry::set_operands()
+};
+
 /// What a parameter may hold; every real is in SI units.
 using ParameterValue =
     std::variant<double, std::int64_t, bool, std::string, std::vector<double>, std::vector<std::string>>;
@@ -42,6 +49,7 @@ struct Parameter {
     bool minimum_excluded = false;
     bool maximum_excluded = false;
     std::size_t list_size = 0;             ///< exact number of members of a list; 0 for any
+    Naming naming = Naming::nothing;       ///< what a text, or each text of a list, names
     std::vector<std::string> choices;      ///< the allowed texts; empty for any
     std::vector<std::string> former_names; ///< accepted with a warning
 
@@ -51,6 +59,10 @@ struct Parameter {
     static Parameter text(std::string name, std::string documentation);
     static Parameter real_list(std::string name, Dimension dimension, std::size_t size, std::string documentation);
     static Parameter text_list(std::string name, std::size_t size, std::string documentation);
+    /// A text that names an existing file, relative to the case file that it is written in; the value is its full path.
+    static Parameter file(std::string name, std::string documentation);
+    /// A list of names of [geometry.NAME] tables, for a geometry made of others.
+    static Parameter geometries(std::string name, std::string documentation);
 
     Parameter by_default(double value) &&;
     Parameter by_default(std::int64_t value) &&;

@@ -34,6 +34,7 @@ inline constexpr Dimension force{1, 1, -2};
 inline constexpr Dimension energy{1, 2, -2};
 inline constexpr Dimension pressure{1, -1, -2};
 inline constexpr Dimension spring{1, 0, -2};                   ///< N/m
+inline constexpr Dimension pressure_per_length{1, -2, -2};     ///< Pa/m, the stiffness of an interface
 inline constexpr Dimension dynamic_viscosity{1, -1, -1};       ///< Pa s
 inline constexpr Dimension squared_yield_viscosity{3, -3, -5}; ///< Pa^3 s, the viscosity of a yield function in Pa^2
 } // namespace dimension

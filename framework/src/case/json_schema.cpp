@@ -74,22 +74,11 @@ json value_schema(const Parameter& parameter, bool plane)
     return json::object();
 }
 
-/// "Elastic bulk modulus K [Pa], > 0, required"
-std::string meaning(const Parameter& parameter)
-{
-    std::string text = fmt::format("{} [{}]", parameter.documentation, type_text(parameter));
-    if (const std::string range = parameter.range_text(); !range.empty())
-        text += ", " + range;
-    if (parameter.required && !parameter.default_value)
-        text += ", required";
-    return text;
-}
-
 void add_parameter(json& properties, const Parameter& parameter, const TableRules& rules)
 {
     const bool plane = std::ranges::find(rules.planes, parameter.name) != rules.planes.end();
     json value = value_schema(parameter, plane);
-    value["description"] = meaning(parameter);
+    value["description"] = describe(parameter) + (parameter.required ? ", required" : "");
     if (parameter.default_value)
         std::visit([&](const auto& given) { value["default"] = given; }, *parameter.default_value);
     for (const std::string& former : parameter.former_names) {

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace periporo {
@@ -136,6 +138,21 @@ std::optional<ParameterValue> read_type(const CaseNode& node, const Parameter& p
     return std::nullopt;
 }
 
+/// Full path of the file that a text names; nothing, and an error, when there is none.
+std::optional<ParameterValue> existing_file(const CaseNode& node, const Parameter& parameter, Diagnostics& diagnostics)
+{
+    const std::filesystem::path& writer = node.place.source->file; // none for an override: the working folder counts
+    const std::filesystem::path file =
+        std::filesystem::absolute(writer.parent_path() / *node.text()).lexically_normal();
+    std::error_code error;
+    if (std::filesystem::is_regular_file(file, error))
+        return file.string();
+    diagnostics.error(node.place, fmt::format("'{}': there is no file {}", parameter.name, file.string()),
+                      writer.empty() ? "paths in overrides are relative to the working folder"
+                                     : "paths are relative to the file that they are written in");
+    return std::nullopt;
+}
+
 std::string choice_hint(const CaseNode& node, const Parameter& parameter)
 {
     if (node.text() == nullptr || parameter.choices.empty())
@@ -155,7 +172,7 @@ std::optional<ParameterValue> read_value(const CaseNode& node, const Parameter& 
         diagnostics.error(node.place, fmt::format("'{}' {}", parameter.name, objection), choice_hint(node, parameter));
         return std::nullopt;
     }
-    return value;
+    return parameter.naming == Naming::file ? existing_file(node, parameter, diagnostics) : value;
 }
 
 std::string type_text(const Parameter& parameter)
@@ -170,11 +187,11 @@ std::string type_text(const Parameter& parameter)
     case ParameterType::boolean:
         return "true or false";
     case ParameterType::text:
-        return "text";
+        return parameter.naming == Naming::file ? "path of a file" : "text";
     case ParameterType::real_list:
         return times + number;
     case ParameterType::text_list:
-        return times + "text";
+        return times + (parameter.naming == Naming::geometry ? "[geometry.NAME]" : "text");
     }
     return {};
 }

@@ -118,6 +118,20 @@ Parameter Parameter::text_list(std::string name, std::size_t size, std::string d
     return parameter;
 }
 
+Parameter Parameter::file(std::string name, std::string documentation)
+{
+    Parameter parameter = text(std::move(name), std::move(documentation));
+    parameter.naming = Naming::file;
+    return parameter;
+}
+
+Parameter Parameter::geometries(std::string name, std::string documentation)
+{
+    Parameter parameter = text_list(std::move(name), 0, std::move(documentation));
+    parameter.naming = Naming::geometry;
+    return parameter;
+}
+
 Parameter Parameter::by_default(double value) &&
 {
     expect_type(*this, ParameterType::real);

@@ -79,6 +79,7 @@ constexpr std::array usual_units{
     UsualUnits{dimension::energy, "J", "J, kJ, MJ"},
     UsualUnits{dimension::pressure, "Pa", "Pa, kPa, MPa, GPa"},
     UsualUnits{dimension::spring, "N/m", "N/m, kN/m, MN/m"},
+    UsualUnits{dimension::pressure_per_length, "Pa/m", "Pa/m, kPa/m, MPa/m, GPa/m, MPa/mm, kN/m3"},
     UsualUnits{dimension::dynamic_viscosity, "Pa s", "Pa s, kPa s, MPa s"},
     UsualUnits{dimension::squared_yield_viscosity, "Pa3 s", "Pa3 s, kPa3 s"},
 };

@@ -1,14 +1,12 @@
-// my plugin: a ball, and the material points that fill it.
+// my plugin: a ball.
 //
-// Make it yours: parameters() and the four functions that every geometry has.
+// Make it yours: parameters() and the three functions that every geometry has. With these any geometry is filled with
+// cubic cells, with its exact volume; a geometry that knows a better way has a fill() of its own. See geometry.hpp.
 #pragma once
 
 #include <periporo/geometry.hpp>
 
-#include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace lab {
@@ -43,29 +41,8 @@ public:
         return {centre_ - Vector3::Constant(radius_), centre_ + Vector3::Constant(radius_)};
     }
 
-    /// Exact volume [m3], which the volume of the points is compared with.
+    /// Exact volume [m3], which the volumes of the points add up to.
     double volume() const override { return 4.0 / 3.0 * std::numbers::pi * radius_ * radius_ * radius_; }
-
-    /// Whole cubic cells whose centres lie inside. A corner of cells lies in the ball's centre, so that planes through
-    /// it cut no cell and each half of the points is the mirror image of the other.
-    PointCloud fill(double spacing) const override
-    {
-        const auto cells = static_cast<long>(std::ceil(radius_ / spacing)); // on each side of the centre
-        PointCloud cloud;
-        for (long k = -cells; k < cells; ++k)
-            for (long j = -cells; j < cells; ++j)
-                for (long i = -cells; i < cells; ++i) {
-                    const Vector3 offset = spacing * (Vector3(i, j, k) + Vector3::Constant(0.5));
-                    if (offset.squaredNorm() < radius_ * radius_)
-                        cloud.positions.push_back(centre_ + offset);
-                }
-        if (cloud.positions.empty()) // the nearest cells are sqrt(3)/2 spacings away
-            throw std::runtime_error("my_plugin: no cell fits into the radius of " + std::to_string(radius_) +
-                                     " m; the spacing must be below " + std::to_string(2.0 / std::sqrt(3.0) * radius_) +
-                                     " m");
-        cloud.volumes.assign(cloud.positions.size(), spacing * spacing * spacing);
-        return cloud;
-    }
 
 private:
     double radius_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Geometry plugin "cylinder": a right circular cylinder along any axis.
+#include "common/distance.hpp"
 #include "common/exact.hpp"
 #include "common/vector.hpp"
 #include "common/whole_cells.hpp"
@@ -12,7 +13,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 namespace periporo::geometry {
 
@@ -85,32 +85,26 @@ public:
 
     double volume() const override { return std::numbers::pi * radius_ * radius_ * height_; }
 
-    /// A square lattice with a cell corner on the axis, so that planes through the axis and along the frame cut no cell
-    /// and a half or quarter of the cloud is the other's mirror image.
+    /// A lattice with a corner of cells in the centre of the base, so that planes through the axis and along the frame
+    /// cut no cell and a half or quarter of the cloud is the other's mirror image. The ends cut no cell either.
     PointCloud fill(double spacing) const override
     {
-        const std::size_t layers = whole_cells("cylinder", {{"height", height_}}, spacing).front();
-        // A centre on the surface itself is left out, so that rounding in the frame cannot put a point outside.
-        const double reach = radius_ / spacing * (1.0 - rounding * (1.0 + origin_.lpNorm<1>() / radius_));
-        const auto rings = static_cast<long>(std::floor(reach));
-        PointCloud cloud;
-        for (std::size_t k = 0; k < layers; ++k) {
-            const double z = height_ * static_cast<double>(2 * k + 1) / static_cast<double>(2 * layers);
-            for (long j = -rings - 1; j <= rings; ++j)
-                for (long i = -rings - 1; i <= rings; ++i) {
-                    const double x = static_cast<double>(2 * i + 1) / 2;
-                    const double y = static_cast<double>(2 * j + 1) / 2;
-                    if (x * x + y * y < reach * reach)
-                        cloud.positions.push_back(origin_ + frame_ * Vector3(x * spacing, y * spacing, z));
-                }
-        }
-        if (cloud.positions.empty())
-            throw std::runtime_error(
-                fmt::format("cylinder: no cell of spacing {:.10g} m has its centre within the radius of {:.10g} m; the "
-                            "spacing must be below {:.10g} m",
-                            spacing, radius_, radius_ * std::numbers::sqrt2));
-        cloud.volumes.assign(cloud.positions.size(), spacing * spacing * (height_ / static_cast<double>(layers)));
-        return cloud;
+        whole_cells("cylinder", {{"height", height_}}, spacing);
+        return fill_by_lattice(*this, spacing,
+                               {origin_, frame_, {{-radius_, -radius_, 0.0}, {radius_, radius_, height_}}});
+    }
+
+    bool has_distance() const override { return true; }
+
+    double signed_distance(const Vector3& position, Vector3& normal) const override
+    {
+        const Vector3 local = frame_.transpose() * (position - origin_);
+        const SignedDistance side{std::hypot(local.x(), local.y()) - radius_,
+                                  unit_vector({local.x(), local.y(), 0.0}, Vector3::UnitX())};
+        const SignedDistance distance =
+            distance_from_common(side, distance_from_layer(local.z(), 0.0, height_, Vector3::UnitZ()));
+        normal = frame_ * distance.outward;
+        return distance.value;
     }
 
 private:

@@ -1,7 +1,9 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Geometry plugin "box": exact containment, tight bounds, whole cells.
+// Geometry plugin "box": exact containment, tight bounds, whole cells, distance from its surface.
+#include "shape_checks.hpp"
+
 #include "support/errors.hpp"
 #include "support/plugins.hpp"
 
@@ -30,33 +32,15 @@ std::unique_ptr<Geometry> rotated_box(const List& size, const List& origin, cons
                           {{"size", size}, {"origin", origin}, {"rotation_axis", axis}, {"rotation_angle", angle}});
 }
 
-double just_above(double value)
+/// Signed distance of a place, which must come with the given normal.
+double distance(const Geometry& geometry, const Vector3& place, const Vector3& expected_normal)
 {
-    return std::nextafter(value, std::numeric_limits<double>::infinity());
-}
-
-double just_below(double value)
-{
-    return std::nextafter(value, -std::numeric_limits<double>::infinity());
-}
-
-/// Checks that the axis-aligned region [lower, upper] is contained with its corners, edges and faces, and that nothing
-/// is contained that lies the smallest possible step outside a face.
-void check_closed_region(const Geometry& geometry, const Vector3& lower, const Vector3& upper)
-{
-    const Vector3 middle = (lower + upper) / 2;
-    const std::array<Vector3, 3> levels{lower, middle, upper};
-    for (const Vector3& x : levels)
-        for (const Vector3& y : levels)
-            for (const Vector3& z : levels)
-                CHECK(geometry.contains(Vector3(x.x(), y.y(), z.z())));
-    for (int direction = 0; direction < 3; ++direction) {
-        Vector3 point = middle;
-        point[direction] = just_below(lower[direction]);
-        CHECK_FALSE(geometry.contains(point));
-        point[direction] = just_above(upper[direction]);
-        CHECK_FALSE(geometry.contains(point));
-    }
+    Vector3 normal;
+    const double result = geometry.signed_distance(place, normal);
+    CAPTURE(place.transpose());
+    CAPTURE(normal.transpose());
+    CHECK((normal - expected_normal).norm() < 4e-16); // a rounding or two
+    return result;
 }
 
 } // namespace
@@ -69,7 +53,7 @@ TEST_CASE("the volume of a box is the product of its edges, rotated or not")
 
 TEST_CASE("a box contains its corners, edges and faces and nothing one rounding step outside")
 {
-    check_closed_region(*box({2.0, 1.0, 0.5}, {-1.0, 4.0, 0.25}), {-1.0, 4.0, 0.25}, {1.0, 5.0, 0.75});
+    test::check_closed_region(*box({2.0, 1.0, 0.5}, {-1.0, 4.0, 0.25}), {-1.0, 4.0, 0.25}, {1.0, 5.0, 0.75});
 }
 
 TEST_CASE("the far face is where the exact sum of origin and size lies, between two doubles")
@@ -87,12 +71,14 @@ TEST_CASE("a box turned by whole quarters about a coordinate axis has exactly ax
     const List origin{3.0, 5.0, 7.0};
     const double quarter = std::numbers::pi / 2;
     // About z: x -> y -> -x.
-    check_closed_region(*rotated_box(size, origin, {0.0, 0.0, 1.0}, quarter), {2.0, 5.0, 7.0}, {3.0, 7.0, 7.5});
-    check_closed_region(*rotated_box(size, origin, {0.0, 0.0, 4.0}, 2 * quarter), {1.0, 4.0, 7.0}, {3.0, 5.0, 7.5});
-    check_closed_region(*rotated_box(size, origin, {0.0, 0.0, 1.0}, -quarter), {3.0, 3.0, 7.0}, {4.0, 5.0, 7.5});
+    test::check_closed_region(*rotated_box(size, origin, {0.0, 0.0, 1.0}, quarter), {2.0, 5.0, 7.0}, {3.0, 7.0, 7.5});
+    test::check_closed_region(*rotated_box(size, origin, {0.0, 0.0, 4.0}, 2 * quarter), {1.0, 4.0, 7.0},
+                              {3.0, 5.0, 7.5});
+    test::check_closed_region(*rotated_box(size, origin, {0.0, 0.0, 1.0}, -quarter), {3.0, 3.0, 7.0}, {4.0, 5.0, 7.5});
     // About x: y -> z -> -y. About y: z -> x -> -z.
-    check_closed_region(*rotated_box(size, origin, {1.0, 0.0, 0.0}, quarter), {3.0, 4.5, 7.0}, {5.0, 5.0, 8.0});
-    check_closed_region(*rotated_box(size, origin, {0.0, 1.0, 0.0}, 5 * quarter), {3.0, 5.0, 5.0}, {3.5, 6.0, 7.0});
+    test::check_closed_region(*rotated_box(size, origin, {1.0, 0.0, 0.0}, quarter), {3.0, 4.5, 7.0}, {5.0, 5.0, 8.0});
+    test::check_closed_region(*rotated_box(size, origin, {0.0, 1.0, 0.0}, 5 * quarter), {3.0, 5.0, 5.0},
+                              {3.5, 6.0, 7.0});
 }
 
 TEST_CASE("a rotated box decides right within a hair of each face")
@@ -219,4 +205,61 @@ TEST_CASE("a rotation about no axis is an error that names the parameter")
                              rotated_box({1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1.0);
                          }),
                          {"geometry plugin \"box\"", "rotation_axis must not be zero"});
+}
+
+TEST_CASE("the second moments of a filled box are those of the box less those of one cell")
+{
+    // n cells of width h along an edge L: sum of h (x - L/2)^2 = L^3/12 (1 - 1/n^2) = L (L^2 - h^2)/12.
+    const Vector3 size(0.2, 0.1, 0.3);
+    const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+    const test::Moments found =
+        test::moments(rotated_box({0.2, 0.1, 0.3}, {1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}, 0.7)->fill(0.05));
+    const Vector3 own = size.prod() / 12.0 * (size.cwiseAbs2().array() - 0.05 * 0.05).matrix();
+    const Eigen::Matrix3d exact = axes * own.asDiagonal() * axes.transpose();
+    CHECK(found.volume == doctest::Approx(size.prod()).epsilon(1e-14).scale(0.0));
+    CHECK((found.centre - (Vector3(1.0, 2.0, 3.0) + axes * size / 2)).norm() < 1e-14);
+    CHECK((found.second - exact).norm() < 1e-13 * exact.norm());
+}
+
+TEST_CASE("outside a box the distance is that from the nearest face, edge or corner")
+{
+    const auto geometry = box({2.0, 4.0, 6.0}, {1.0, 1.0, 1.0}); // 1 to 3, 1 to 5 and 1 to 7
+    CHECK(distance(*geometry, {4.5, 2.0, 2.0}, Vector3::UnitX()) == 1.5);
+    CHECK(distance(*geometry, {2.0, 4.0, 0.5}, -Vector3::UnitZ()) == 0.5);
+    CHECK(distance(*geometry, {6.0, 9.0, 2.0}, {0.6, 0.8, 0.0}) == 5.0);                    // 3, 4
+    CHECK(distance(*geometry, {-2.0, 9.0, 19.0}, Vector3(-3.0, 4.0, 12.0) / 13.0) == 13.0); // 3, 4, 12
+}
+
+TEST_CASE("inside a box and on its surface the nearest face counts")
+{
+    const auto geometry = box({2.0, 4.0, 6.0}, {1.0, 1.0, 1.0});
+    CHECK(distance(*geometry, {1.25, 2.0, 3.0}, -Vector3::UnitX()) == -0.25);
+    CHECK(distance(*geometry, {2.0, 4.5, 3.0}, Vector3::UnitY()) == -0.5);
+    CHECK(distance(*geometry, {2.0, 3.0, 7.0}, Vector3::UnitZ()) == 0.0);
+    CHECK(distance(*geometry, {1.0, 3.0, 3.0}, -Vector3::UnitX()) == 0.0);
+}
+
+TEST_CASE("the normal of a box has the length 1 on edges, at corners, in the middle and the smallest step outside")
+{
+    const double step = std::numeric_limits<double>::denorm_min();
+    for (const auto& geometry :
+         {box({2.0, 2.0, 2.0}), rotated_box({2.0, 2.0, 2.0}, {0.0, 0.0, 0.0}, {1.0, 2.0, 3.0}, 0.7)})
+        for (const Vector3& place :
+             {Vector3(0.0, 0.0, 0.0), Vector3(1.0, 0.0, 0.0), Vector3(1.0, 1.0, 1.0), Vector3(0.0, 1.0, 1.0),
+              Vector3(-step, -step, -step), Vector3(-step, -step, 1.0)}) {
+            Vector3 normal;
+            CHECK(std::abs(geometry->signed_distance(place, normal)) <= 3.0);
+            CAPTURE(place.transpose());
+            CHECK(normal.norm() == doctest::Approx(1.0).epsilon(1e-15));
+        }
+}
+
+TEST_CASE("the distance from a turned box is that from the nearest place on its faces, and its gradient the normal")
+{
+    const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+    const auto geometry = rotated_box({0.8, 1.0, 0.5}, {0.3, -0.2, 0.1}, {1.0, 2.0, 3.0}, 0.7);
+    test::SurfaceSamples surface;
+    surface.add_block({0.3, -0.2, 0.1}, {0.8 * axes.col(0), axes.col(1), 0.5 * axes.col(2)}, 100);
+    test::check_distance(*geometry, surface);
+    test::check_gradient(*geometry);
 }

@@ -44,6 +44,7 @@ const std::vector<Dimension> named_dimensions{dimension::none,
                                               dimension::energy,
                                               dimension::pressure,
                                               dimension::spring,
+                                              dimension::pressure_per_length,
                                               dimension::dynamic_viscosity,
                                               dimension::squared_yield_viscosity};
 
@@ -67,12 +68,14 @@ TEST_CASE("a quantity has the dimension of its unit")
     CHECK(parse_quantity("1e3 Pa^3 s").dimension == dimension::squared_yield_viscosity);
     CHECK(parse_quantity("4 MN/m").dimension == dimension::spring);
     CHECK(parse_quantity("3 J/m3").dimension == dimension::pressure);
+    CHECK(parse_quantity("10 MPa/mm").dimension == dimension::pressure_per_length);
 }
 
 TEST_CASE("a power applies to the prefix too")
 {
     CHECK(parse_quantity("1 mm2").value == 1e-6);
     CHECK(parse_quantity("2 kPa3 s").value == 2e9);
+    CHECK(parse_quantity("10 MPa/mm").value == 1e10);
     CHECK(parse_quantity("1 g/cm3").value == doctest::Approx(1000.0).epsilon(1e-15));
 }
 

@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A rotation about an axis whose matrix is orthogonal to the last digit when taken exactly.
+// A rotation whose matrix is orthogonal to the last digit when taken exactly.
 #pragma once
 
 #include "periporo/tensor.hpp"
@@ -9,6 +9,7 @@
 #include "common/exact.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 
@@ -22,6 +23,8 @@ public:
     /// @param axis direction of any length but zero
     /// @param angle right-handed about the axis [rad]
     Rotation(const Vector3& axis, double angle);
+    /// The shortest turn of z into a direction of any length but zero; into -z the half turn about x.
+    static Rotation of_z_to(const Vector3& direction);
 
     /// The columns are the rotated coordinate axes, rounded to double.
     const Eigen::Matrix3d& matrix() const { return matrix_; }
@@ -31,6 +34,8 @@ public:
     const Exact& scale() const { return scale_; }
 
 private:
+    explicit Rotation(const Eigen::Quaterniond& quaternion);
+
     std::array<ExactVector, 3> exact_axes_;
     Exact scale_;
     Eigen::Matrix3d matrix_;
