@@ -20,27 +20,46 @@ struct ContactPair {
     double distance;       ///< between the points, or signed above the surface [m]
     double approach_speed; ///< -d(distance)/dt [m/s]
     double volume_a;       ///< of the point [m3]
-    double volume_b;       ///< of the other point; 0 for a rigid surface
+    double volume_b;       ///< of the other point, or what moves with a deformable surface; 0 for a rigid one
     double mass_a;         ///< [kg]
     double mass_b;         ///< 0 for a rigid surface
 };
 
+/// The mass that moves against the spring of a contact: m_a m_b/(m_a + m_b), or m_a at a rigid surface [kg].
+inline double reduced_mass(const ContactPair& pair)
+{
+    return pair.mass_b > 0.0 ? pair.mass_a * pair.mass_b / (pair.mass_a + pair.mass_b) : pair.mass_a;
+}
+
 /// What the law answers.
 struct ContactResponse {
-    double force = 0.0;         ///< normal force, positive when it pushes apart [N]
+    double force = 0.0;         ///< normal force, positive when it pushes apart [N]; friction needs a positive one
     double stiffness = 0.0;     ///< -d(force)/d(distance), for the stable step [N/m]
     double energy = 0.0;        ///< stored, recoverable [J]
     double damping_force = 0.0; ///< the part of `force` that does not come from stored energy [N]
 };
 
-/// Damping ratio zeta of a spring and dashpot whose collisions have the coefficient of restitution e, from
-/// e = exp(-pi zeta/(1 - zeta^2)^(1/2)); 0 for e = 1, 1 for e = 0.
+/// Damping ratio zeta of a spring and dashpot that never pulls and whose collisions have the coefficient of restitution
+/// e. A pair parts when its force is gone, omega t = 2 acos(zeta)/(1 - zeta^2)^(1/2) after it met, at e = exp(-zeta
+/// omega t) of its speed; beyond zeta = 1 with acosh(zeta)/(zeta^2 - 1)^(1/2) (Schwager and Poeschel 2007, Granular
+/// Matter 9, 465-469). 0 for e = 1. No dashpot stops a collision dead: the most is zeta = 2, which leaves e = 0.048.
 inline double damping_ratio(double restitution)
 {
-    if (restitution <= 0.0)
-        return 1.0;
-    const double logarithm = std::log(restitution);
-    return -logarithm / std::sqrt(std::numbers::pi * std::numbers::pi + logarithm * logarithm);
+    if (restitution >= 1.0)
+        return 0.0;
+    const auto logarithm_lost = [](double zeta) {
+        const double b = std::sqrt(std::abs(1.0 - zeta) * (1.0 + zeta));
+        const double angle = zeta < 1.0 ? std::acos(zeta) : std::acosh(zeta);
+        return b > 0.0 ? 2.0 * zeta * angle / b : 2.0;
+    };
+    const double wanted = -std::log(std::max(restitution, 0.0));
+    double low = 0.0;
+    double high = 2.0;
+    for (int halving = 0; halving < 60; ++halving) { // the loss grows with zeta
+        const double middle = 0.5 * (low + high);
+        (logarithm_lost(middle) < wanted ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
 }
 
 /// A linear spring k under an overlap, with a dashpot 2 zeta (k m)^(1/2) beside it; it never pulls, so that a strongly
@@ -64,10 +83,17 @@ public:
     virtual double distance(const Vector3& position, Vector3& normal) const = 0;
 };
 
-/// Lengths of the discretization that a contact law may scale with.
+/// What is met by the points of a body.
+enum class ContactPartner {
+    points, ///< points of another body, or grains of the same: `distance` is that between two points
+    surface ///< a rigid obstacle, or the smoothed surface of a deformable body: `distance` is signed, above the surface
+};
+
+/// What a contact law may scale with.
 struct ContactScale {
     double spacing = 0.0; ///< dx [m]
     double horizon = 0.0; ///< delta [m]
+    ContactPartner partner = ContactPartner::points;
 };
 
 class Contact {

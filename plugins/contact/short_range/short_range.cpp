@@ -4,5 +4,4 @@
 // The plugin contact "short_range".
 #include "short_range.hpp"
 
-PERIPORO_PLUGIN(periporo::PluginKind::contact, periporo::ShortRange, "short_range",
-                "Linear short-range repulsion between points")
+PERIPORO_PLUGIN(periporo::PluginKind::contact, periporo::ShortRange, "short_range", "Linear short-range repulsion")
