@@ -56,6 +56,20 @@ InitialStressDescription initial_stress_of(const CheckedTable& table)
     return stress;
 }
 
+FillDescription fill_of(const CheckedTable& table)
+{
+    FillDescription fill;
+    fill.type = table.own.text("type");
+    fill.align = table.own.text("align");
+    if (fill.type == "jittered")
+        fill.amplitude = table.own.real("amplitude");
+    if (fill.type != "lattice")
+        fill.seed = table.own.integer("seed");
+    if (fill.type == "relaxed")
+        fill.iterations = table.own.integer("iterations");
+    return fill;
+}
+
 BodyDescription body_of(const CheckedTable& table)
 {
     BodyDescription body;
@@ -68,7 +82,24 @@ BodyDescription body_of(const CheckedTable& table)
     body.angular_velocity = vector_of(table.own.real_list("angular_velocity"));
     body.strain_rate = symmetric_matrix_of(table.own.real_list("strain_rate"));
     body.initial_stress = initial_stress_of(table.one("initial_stress"));
+    body.fill = fill_of(table.one("fill"));
     return body;
+}
+
+std::vector<std::string> optional_texts(const Parameters& values, const std::string& name)
+{
+    return values.has(name) ? values.text_list(name) : std::vector<std::string>{};
+}
+
+std::string optional_text(const Parameters& values, const std::string& name)
+{
+    return values.has(name) ? values.text(name) : std::string();
+}
+
+bool makes_images(const CheckedTable& boundary)
+{
+    const std::string& type = boundary.own.text("type");
+    return type == "symmetry" || type == "periodic";
 }
 
 BoundaryDescription boundary_of(const CheckedTable& table)
@@ -79,6 +110,36 @@ BoundaryDescription boundary_of(const CheckedTable& table)
     if (boundary.type == "periodic")
         boundary.period = table.own.real("period");
     return boundary;
+}
+
+HeldRegionDescription held_region_of(const CheckedTable& table)
+{
+    HeldRegionDescription region;
+    region.type = table.own.text("type");
+    if (table.own.has("plane"))
+        region.below = parse_plane(table.own.text("plane"));
+    for (const std::string& plane : optional_texts(table.own, "layer"))
+        region.layer.push_back(parse_plane(plane));
+    region.within = optional_text(table.own, "within");
+    region.body = optional_text(table.own, "body");
+    region.stages = optional_texts(table.own, "stages");
+    if (region.type == "roller")
+        region.direction = vector_of(table.own.real_list("direction")).normalized();
+    if (region.type == "moving")
+        region.velocity = vector_of(table.own.real_list("velocity"));
+    return region;
+}
+
+ObstacleDescription obstacle_of(const CheckedTable& table)
+{
+    ObstacleDescription obstacle;
+    obstacle.name = table.name;
+    obstacle.geometry = plugin_choice(table.one("geometry"), "generator");
+    obstacle.velocity = vector_of(table.own.real_list("velocity"));
+    if (table.own.has("moves_in"))
+        obstacle.moves_in = table.own.text_list("moves_in");
+    obstacle.stages = optional_texts(table.own, "stages");
+    return obstacle;
 }
 
 StageDescription stage_of(const CheckedTable& table)
@@ -133,10 +194,19 @@ CaseDescription build_description(const CheckedTable& root)
         description.materials.push_back(material_of(table));
     for (const CheckedTable& table : root.all("body"))
         description.bodies.push_back(body_of(table));
-    for (const CheckedTable& table : root.all("boundary"))
-        description.boundaries.push_back(boundary_of(table));
+    for (const CheckedTable& table : root.all("geometry"))
+        description.geometries.push_back({table.name, plugin_choice(table, "generator")});
+    for (const CheckedTable& table : root.all("obstacle"))
+        description.obstacles.push_back(obstacle_of(table));
+    for (const CheckedTable& table : root.all("boundary")) {
+        if (makes_images(table))
+            description.boundaries.push_back(boundary_of(table));
+        else
+            description.held_regions.push_back(held_region_of(table));
+    }
     for (const CheckedTable& table : root.all("contact"))
-        description.contacts.push_back({plugin_choice(table, "law"), table.own.text_list("between")});
+        description.contacts.push_back(
+            {plugin_choice(table, "law"), table.own.text_list("between"), optional_text(table.own, "surface")});
     for (const CheckedTable& table : root.all("stage"))
         description.stages.push_back(stage_of(table));
     for (const CheckedTable& table : root.all("output"))

@@ -1,8 +1,11 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Checks between the tables of a case. Values that were wrong themselves are absent here and are passed over.
+// Checks between the tables of a case.
 #include "case/cross_checks.hpp"
+
+#include "case/scene_checks.hpp"
+#include "case/table_values.hpp"
 
 #include <fmt/format.h>
 
@@ -14,28 +17,6 @@
 
 namespace periporo {
 namespace {
-
-/// A value if it was given soundly or has a default. Looks at the values directly: a check is no consumption.
-template <class Value>
-const Value* value_of(const CheckedTable& table, const std::string& key)
-{
-    const auto found = table.own.values().find(key);
-    return found == table.own.values().end() ? nullptr : std::get_if<Value>(&found->second);
-}
-
-std::vector<std::string> names_of(const std::vector<CheckedTable>& tables)
-{
-    std::vector<std::string> names;
-    names.reserve(tables.size());
-    for (const CheckedTable& table : tables)
-        names.push_back(table.name);
-    return names;
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name)
-{
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 void check_materials_of_bodies(const CheckedTable& root, Diagnostics& diagnostics)
 {
@@ -67,24 +48,6 @@ void check_water(const CheckedTable& root, Diagnostics& diagnostics)
                             "is no suction",
                             body.name),
                 "give 'saturation' > 0, or leave both out for a dry body");
-    }
-}
-
-void check_contacts(const CheckedTable& root, Diagnostics& diagnostics)
-{
-    const std::vector<std::string> bodies = names_of(root.all("body"));
-    for (const CheckedTable& contact : root.all("contact")) {
-        const auto* between = value_of<std::vector<std::string>>(contact, "between");
-        if (between == nullptr)
-            continue;
-        if (between->empty() || between->size() > 2)
-            diagnostics.error(contact.place_of("between"),
-                              fmt::format("'between' must name one or two bodies, not {}", between->size()),
-                              "one body meets the surface of the law; two bodies, or one named twice, meet each other");
-        for (std::size_t i = 0; i < between->size(); ++i)
-            if (!contains(bodies, (*between)[i]))
-                diagnostics.error(contact.members.at("between")[i], fmt::format("there is no [body.{}]", (*between)[i]),
-                                  naming_hint((*between)[i], bodies, "bodies of the case"));
     }
 }
 
@@ -187,7 +150,7 @@ void check_together(const CheckedTable& root, Diagnostics& diagnostics)
 {
     check_materials_of_bodies(root, diagnostics);
     check_water(root, diagnostics);
-    check_contacts(root, diagnostics);
+    check_scene(root, diagnostics);
     check_stages(root, diagnostics);
     check_initial_stresses(root, diagnostics);
     check_outputs(root, diagnostics);

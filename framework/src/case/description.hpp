@@ -51,9 +51,25 @@ struct InitialStressDescription {
     double overconsolidation_ratio = 1.0; ///< OCR [-]
 };
 
+/// A shape by name, for geometries made of others and for regions.
+struct GeometryDescription {
+    std::string name;
+    PluginChoice plugin;
+};
+
+/// How points fill a body.
+struct FillDescription {
+    std::string type = "lattice"; ///< or "jittered" or "relaxed"
+    std::string align = "body";   ///< the lattice of the geometry itself, or "axes": along the coordinate axes
+    double amplitude = 0.2;       ///< jittered: largest shift of a point along each axis, in spacings [-]
+    std::int64_t iterations = 20; ///< relaxed: most iterations of Lloyd's method
+    std::int64_t seed = 1;        ///< of the random numbers
+};
+
 struct BodyDescription {
     std::string name;
     PluginChoice geometry;
+    FillDescription fill;
     std::string material;
     double suction = 0.0;                                  ///< s >= 0 [Pa]
     double saturation = 0.0;                               ///< S_r [-]; 0 with s = 0 is "dry"
@@ -72,16 +88,39 @@ struct PlaneDescription {
     double offset = 0.0; ///< position or radius [m]
 };
 
+/// What makes images of points.
 struct BoundaryDescription {
-    std::string type;       ///< "symmetry", "periodic" or "fixed"
-    PlaneDescription plane; ///< of a symmetry; of the lower side of a periodic pair; points that begin on its side of
-                            ///< smaller coordinates are fixed
+    std::string type;       ///< "symmetry" or "periodic"
+    PlaneDescription plane; ///< of a symmetry; the lower side of a periodic pair
     double period = 0.0;    ///< distance between the sides of a periodic pair [m]
+};
+
+/// Points with a prescribed motion. Every condition that is given must hold at the start of the run.
+struct HeldRegionDescription {
+    std::string type;                      ///< "fixed", "roller" or "moving"
+    std::optional<PlaneDescription> below; ///< coordinates smaller than that of the plane
+    std::vector<PlaneDescription> layer;   ///< none, or two: coordinates from that of the one to that of the other
+    std::string within;                    ///< name of a geometry, or empty
+    std::string body;                      ///< or empty
+    Vector3 direction = Vector3::Zero();   ///< of a roller, a unit vector: the points do not move along it
+    Vector3 velocity = Vector3::Zero();    ///< of a moving region [m/s]
+    std::vector<std::string> stages;       ///< in which the points are held; empty: all
+};
+
+/// A rigid thing that bodies touch.
+struct ObstacleDescription {
+    std::string name;
+    PluginChoice geometry;
+    Vector3 velocity = Vector3::Zero();               ///< while it moves [m/s]
+    std::optional<std::vector<std::string>> moves_in; ///< stages; none given: all dynamic ones
+    std::vector<std::string> stages;                  ///< in which it is there; empty: all
 };
 
 struct ContactDescription {
     PluginChoice law;
-    std::vector<std::string> between; ///< one body (against the law's own surface, or its free grains) or two bodies
+    std::vector<std::string> between; ///< one body (against the law's own surface), two bodies, a body and an obstacle,
+                                      ///< or one body twice (its free grains)
+    std::string surface;              ///< the body whose smoothed surface is touched, or empty
 };
 
 struct StageDescription {
@@ -119,7 +158,10 @@ struct CaseDescription {
     TimeDescription time;
     std::vector<MaterialDescription> materials;
     std::vector<BodyDescription> bodies;
+    std::vector<GeometryDescription> geometries;
+    std::vector<ObstacleDescription> obstacles;
     std::vector<BoundaryDescription> boundaries;
+    std::vector<HeldRegionDescription> held_regions;
     std::vector<ContactDescription> contacts;
     std::vector<StageDescription> stages;
     std::vector<OutputDescription> outputs;

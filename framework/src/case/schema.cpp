@@ -63,6 +63,29 @@ TableRules geometry_rules()
     return rules;
 }
 
+TableRules fill_rules()
+{
+    TableRules rules{
+        {Parameter::text("type", "How points lie").one_of({"lattice", "jittered", "relaxed"}).by_default("lattice"),
+         Parameter::text("align", "Lattice along the axes of the body or of the coordinates")
+             .one_of({"body", "axes"})
+             .by_default("body")}};
+    const Parameter seed = Parameter::integer("seed", "Of the random numbers").at_least(0).by_default(1);
+    const Parameter amplitude =
+        Parameter::real("amplitude", dimension::none, "Largest shift along each axis, in spacings")
+            .above(0.0)
+            .below(0.5)
+            .by_default(0.2);
+    rules.selector = "type";
+    rules.variants = {
+        {"lattice", {}},
+        {"jittered", {{amplitude, seed}}},
+        {"relaxed",
+         {{seed, Parameter::integer("iterations", "Most iterations of Lloyd's method").at_least(1).by_default(20)}}},
+    };
+    return rules;
+}
+
 TableRules initial_stress_rules()
 {
     TableRules rules{
@@ -99,30 +122,84 @@ TableRules body_rules()
     rules.nested = {
         {"geometry", TableShape::single, TablePresence::required, "The region that the body fills", geometry_rules()},
         {"initial_stress", TableShape::single, TablePresence::defaulted, "Effective stress at the start",
-         initial_stress_rules()}};
+         initial_stress_rules()},
+        {"fill", TableShape::single, TablePresence::defaulted, "How points fill the region", fill_rules()}};
+    return rules;
+}
+
+Parameter plane_parameter(const char* documentation)
+{
+    return Parameter::text("plane", documentation);
+}
+
+/// Which points a prescribed motion concerns, and when. Whatever is given must hold for a point at the start of the
+/// run.
+std::vector<Parameter> held_region_parameters()
+{
+    return {plane_parameter("Points of smaller coordinates, \"z = 0 mm\"").optional(),
+            Parameter::text_list("layer", 2, "Points between two planes, [\"z = 0 mm\", \"z = 20 mm\"]").optional(),
+            Parameter::text("within", "Points in a [geometry.NAME]").optional(),
+            Parameter::text("body", "Points of a body").optional(),
+            Parameter::text_list("stages", 0, "Stages in which the points are held; all when left out").optional()};
+}
+
+TableRules held_region_rules(std::vector<Parameter> further = {})
+{
+    TableRules rules{std::move(further)};
+    for (Parameter& parameter : held_region_parameters())
+        rules.parameters.push_back(std::move(parameter));
+    rules.planes = {"plane", "layer"};
+    return rules;
+}
+
+TableRules image_rules(Parameter plane, std::vector<Parameter> further = {})
+{
+    TableRules rules{{std::move(plane)}};
+    for (Parameter& parameter : further)
+        rules.parameters.push_back(std::move(parameter));
+    rules.planes = {"plane"};
     return rules;
 }
 
 TableRules boundary_rules()
 {
-    TableRules rules{{Parameter::text("type", "Kind of boundary").one_of({"symmetry", "periodic", "fixed"}),
-                      Parameter::text("plane", "Symmetry plane, lower side of a periodic pair, or end of the region of "
-                                               "smaller coordinates whose points are held, \"x = 0 mm\"")}};
+    TableRules rules{
+        {Parameter::text("type", "Kind of boundary").one_of({"symmetry", "periodic", "fixed", "roller", "moving"})}};
     rules.selector = "type";
     rules.variants = {
-        {"symmetry", {}},
-        {"fixed", {}},
+        {"symmetry", image_rules(plane_parameter("Symmetry plane, \"x = 0 mm\""))},
         {"periodic",
-         {{Parameter::real("period", dimension::length, "Distance between the sides of a periodic pair").above(0.0)}}},
+         image_rules(plane_parameter("Lower side of the periodic pair, \"y = 0 mm\""),
+                     {Parameter::real("period", dimension::length, "Distance between the sides").above(0.0)})},
+        {"fixed", held_region_rules()},
+        {"roller", held_region_rules({Parameter::real_list("direction", dimension::none, 3,
+                                                           "Direction in which the points cannot move")})},
+        {"moving", held_region_rules(
+                       {Parameter::real_list("velocity", dimension::velocity, 3, "Velocity that the points have")})},
     };
-    rules.planes = {"plane"};
+    return rules;
+}
+
+TableRules obstacle_rules()
+{
+    TableRules rules{
+        {Parameter::real_list("velocity", dimension::velocity, 3, "Velocity while it moves")
+             .by_default({0.0, 0.0, 0.0}),
+         Parameter::text_list("moves_in", 0, "Stages in which it moves; all dynamic ones when left out").optional(),
+         Parameter::text_list("stages", 0, "Stages in which it is there; all when left out").optional()}};
+    rules.nested = {{"geometry", TableShape::single, TablePresence::required, "Its shape", geometry_rules()}};
     return rules;
 }
 
 TableRules contact_rules()
 {
     TableRules rules{{Parameter::text("law", "Contact plugin"),
-                      Parameter::text_list("between", 0, "One body, against the surface of the law, or two bodies")}};
+                      Parameter::text_list("between", 0,
+                                           "One body, against the surface of the law; two bodies; a body and an "
+                                           "obstacle; or one body twice, for its free grains"),
+                      Parameter::text("surface", "Of two bodies the one whose smoothed surface the other touches, with "
+                                                 "the reaction along its normal; when left out, point touches point")
+                          .optional()}};
     rules.selector = "law";
     rules.plugin = PluginKind::contact;
     return rules;
@@ -221,7 +298,10 @@ TableRules root_rules()
         {"time", single, defaulted, "The time step", time_rules()},
         {"material", named, required, "A material", material_rules()},
         {"body", named, required, "A body of one material", body_rules()},
-        {"boundary", list, optional, "A symmetry plane, a periodic pair or a fixed region", boundary_rules()},
+        {"geometry", named, optional, "A shape that others are made of, or a region of points", geometry_rules()},
+        {"obstacle", named, optional, "A rigid thing that bodies touch, at rest or moving", obstacle_rules()},
+        {"boundary", list, optional, "A symmetry plane, a periodic pair or points with a prescribed motion",
+         boundary_rules()},
         {"contact", list, optional, "A contact law between bodies, or a body and a surface", contact_rules()},
         {"stage", list, required, "A stage of the run, in order", stage_rules()},
         {"output", list, optional, "A writer of results", output_rules()},

@@ -16,13 +16,22 @@ void add_explain_command(CLI::App& program, Action& action)
     CLI::App* command =
         program.add_subcommand("explain", "Say in plain words what a case is: points, stages, time step, memory");
     const auto arguments = std::make_shared<CaseArguments>();
+    const auto picture = std::make_shared<std::string>();
     add_case_arguments(*command, *arguments);
-    command->footer("Example:\n  periporo explain my_case.toml");
-    command->callback([arguments, &action] {
-        action = [arguments] {
+    command->add_option("--picture", *picture, "Draw bodies, obstacles, boundaries, axes and sizes into this SVG file")
+        ->check([](const std::string& file) {
+            return file.ends_with(".svg") ? std::string() : fmt::format("{}: the name must end in .svg", file);
+        });
+    command->footer("Example:\n  periporo explain my_case.toml --picture set_up.svg");
+    command->callback([arguments, picture, &action] {
+        action = [arguments, picture] {
             PluginRegistry registry;
             const CaseDescription description = read_case_loudly(*arguments, registry);
             fmt::print("{}\n", explain_case(description, registry));
+            if (!picture->empty()) {
+                draw_case(description, registry, *picture);
+                fmt::print("  drawn in {}\n", *picture);
+            }
             return ExitStatus::done;
         };
     });

@@ -1,24 +1,37 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contact of points with rigid surfaces, with points of other bodies, and of free grains with everything.
+// Contact of points with rigid surfaces, with other bodies, and of free grains with everything.
 #pragma once
 
+#include "contact/smoothed_surface.hpp"
 #include "model/model.hpp"
 #include "periporo/contact.hpp"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace periporo {
 
-/// One contact law at work between bodies. With a surface of its own the law holds every named body; without one it
-/// acts between two different bodies, or, where `bodies` names one body twice, between its free grains and all its
-/// points: bonded points of one body never need contact, their cut-off lies inside the horizon.
+/// One contact law at work: between the named bodies and a rigid surface, which is an obstacle or the law's own;
+/// between two different bodies, point against point or point against smoothed surface; or, where `bodies` names one
+/// body twice, between its free grains and all its points: bonded points of one body never need contact, their cut-off
+/// lies inside the horizon.
 struct ContactAssignment {
     std::shared_ptr<const Contact> law;
     std::vector<std::uint32_t> bodies;
+    std::optional<std::uint32_t> obstacle = {};     ///< of the model
+    std::optional<std::uint32_t> surface_body = {}; ///< the one of two bodies whose smoothed surface is touched
+};
+
+/// How moving obstacles take part in the energy of a step [W].
+struct ObstaclePower {
+    double reaction = 0.0; ///< of all forces on points, with the velocities of the obstacles
+    double friction = 0.0; ///< the part of friction
+    double damping = 0.0;  ///< the part of what does not come from stored energy
 };
 
 /// What contact alone asks of the step.
@@ -31,23 +44,46 @@ struct ContactBound {
 /// the same numbers, so that forces are opposite to the last bit and independent of threads.
 class ContactForces {
 public:
-    explicit ContactForces(std::vector<ContactAssignment> assignments) : assignments_(std::move(assignments)) {}
+    explicit ContactForces(std::vector<ContactAssignment> assignments)
+        : assignments_(std::move(assignments)), room_(assignments_.size()), deepest_(assignments_.size(), 0.0)
+    {
+    }
 
-    /// Pairs of different bodies that may touch before the next refresh. To be called after every refresh.
-    /// @param slack how much closer a pair may come until then [m]
+    /// What may touch before the next refresh. To be called after every refresh.
+    /// @param slack how much closer a pair of points may come until then [m]
     void find_candidates(const Model& model, double slack);
+    /// A point that lies deep in a rigid surface when that first acts, as a lattice puts it that does not follow the
+    /// surface, takes the room that it finds: its reach is its distance, and grows to the whole when it moves away.
+    /// With the whole reach at once the overlap would be energy from nowhere. To be called when a stage begins.
+    void make_room(const Model& model);
+    /// Looks again for points near rigid surfaces if either have moved far since that was done. To be called in every
+    /// step.
+    void follow_surfaces(const Model& model);
 
     /// What the laws are told of the approach of points: as it is, or, while a body settles under artificial damping,
     /// nothing; that damping would multiply the dashpots of a law beyond stability.
     enum class Approach { real, none };
 
-    /// Adds normal forces of all laws and friction between points to `force`. Records must be current, with mid-step
+    /// Adds normal forces of all laws and friction between bodies to `force`. Records must be current, with mid-step
     /// velocities.
     void add_reactions(const Model& model, double time_step, Approach approach, std::vector<Vector3>& force);
 
     /// Adds Coulomb friction on rigid surfaces, last of all forces: it takes from the tangential force and momentum of
     /// the point what stops its slip within the step, but not more than mu F_n.
     void add_surface_friction(const Model& model, double time_step, std::vector<Vector3>& force);
+
+    /// What moving obstacles did in the last step.
+    const ObstaclePower& obstacle_power() const { return obstacle_power_; }
+    /// Force of each obstacle on all points in the last step [N].
+    const std::vector<Vector3>& reactions_of_obstacles() const { return obstacle_reactions_; }
+    /// Reach of all points at each rigid surface that has acted [m], as make_room() says; one list after the other.
+    std::vector<double> rooms() const;
+    void set_rooms(const Model& model, std::span<const double> rooms);
+    /// For each assignment the deepest overlap of the run so far, over the reach of the contact: at 1 the two points
+    /// lie in one place, or a point lies in the surface; far beyond that it went through.
+    const std::vector<double>& deepest_overlap() const { return deepest_; }
+    void set_deepest_overlap(std::vector<double> deepest) { deepest_ = std::move(deepest); }
+    const std::vector<ContactAssignment>& assignments() const { return assignments_; }
 
     /// Stored in all contacts at the last add_reactions [J].
     double energy() const { return energy_; }
@@ -70,12 +106,26 @@ private:
         double friction;
         double force;
         Vector3 normal;
+        Vector3 velocity;       ///< of the surface [m/s]
+        std::uint32_t obstacle; ///< of the model, or as many as it has for a law's own surface
+    };
+    /// A point on the smoothed surface of another body.
+    struct SupportedPoint {
+        std::uint32_t point;
+        Support support;
     };
 
-    void add_surface(const Model& model, const ContactAssignment& assignment, std::vector<Vector3>& force);
+    void find_pairs(const Model& model, std::size_t assignment, double slack);
+    void find_near_surfaces(const Model& model);
+    void add_surface(const Model& model, std::size_t assignment, std::vector<Vector3>& force);
+    void add_smoothed(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
+    void find_supported_points(const Model& model, std::size_t assignment);
+    void press(const Model& model, std::size_t assignment, const SupportedPoint& supported, double time_step,
+               std::vector<Vector3>& force);
+    void note_overlap(std::size_t assignment, double overlap);
     void add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
-    void add_free_grains(const Model& model, const ContactAssignment& assignment, double time_step,
-                         std::vector<Vector3>& force);
+    void add_free_grains(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
+    void note_pair_overlaps(std::size_t assignment);
     /// How many `neighbours` a point touches, to contacts_of_.
     template <class Neighbours, class Reach>
     void count_contacts(const Model& model, std::uint32_t point, const Neighbours& neighbours, const Reach& reach);
@@ -92,6 +142,19 @@ private:
         std::vector<std::uint32_t> neighbours;
     };
     std::vector<Candidates> candidates_;
+    std::vector<std::vector<std::uint32_t>> near_surface_; ///< for each assignment, points near its rigid surface
+    std::vector<std::vector<double>>
+        room_;                      ///< for each assignment, once its rigid surface acts, the reach of each point
+    std::vector<Vector3> searched_; ///< positions of the points when near_surface_ was found [m]
+    std::vector<Vector3> searched_shifts_;  ///< of the obstacles [m]
+    std::vector<SmoothedSurface> smoothed_; ///< for each assignment
+    std::vector<SupportedPoint> supported_; ///< on a smoothed surface now; only ever grows
+    std::size_t supported_count_ = 0;
+    std::vector<double> shared_weight_; ///< of each point of a smoothed surface: sum of |w| of those that stand on it
+    std::vector<double> overlap_;       ///< of each point with other points, over their reach
+    std::vector<double> deepest_;
+    ObstaclePower obstacle_power_;
+    std::vector<Vector3> obstacle_reactions_; ///< and that of the laws' own surfaces [N]
     /// Contacts of each point under the assignment at hand. Friction that stops the slip of a pair within a step is
     /// divided by the larger number of its two ends: together they stop a point and never throw it back.
     std::vector<std::uint32_t> contacts_of_;

@@ -82,6 +82,11 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     const std::vector<double> table = isometry_values(model.isometries);
     archive.put("isometries", std::span<const double>(table));
     archive.put("grain_reach", std::span<const double>(parts.contact.grain_reach()));
+    std::vector<Vector3> shifts(model.obstacles.size());
+    std::ranges::transform(model.obstacles, shifts.begin(), &Obstacle::shift);
+    archive.put("obstacle_shift", flat(shifts));
+    archive.put("surface_room", std::span<const double>(parts.contact.rooms()));
+    archive.put("deepest_overlap", std::span<const double>(parts.contact.deepest_overlap()));
     archive.put("frequency_mode", flat(parts.frequency.mode()));
 
     const Dynamics::State& dynamics = parts.dynamics.state();
@@ -90,7 +95,8 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
         at.time,           at.stage_start,       at.time_step,       at.wall_seconds,
         ledger.kinetic,    ledger.gravity,       ledger.stress_work, ledger.contact,
         ledger.friction,   ledger.collision,     ledger.opening,     dynamics.gravity_datum,
-        dynamics.residual, dynamics.force_scale, ledger.verlet,      dynamics.force_squared_per_mass};
+        dynamics.residual, dynamics.force_scale, ledger.verlet,      dynamics.force_squared_per_mass,
+        ledger.boundary};
     archive.put("reals", std::span<const double>(reals));
     std::vector<std::int64_t> integers{static_cast<std::int64_t>(at.stage),
                                        static_cast<std::int64_t>(at.stage_step),
@@ -107,7 +113,7 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
 }
 
 void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case,
-                     double contact_slack, const std::function<std::vector<Isometry>(std::uint64_t stage)>& generators)
+                     double contact_slack, const std::function<void(std::uint64_t stage)>& enter_stage)
 {
     const ArchiveReader archive(file);
     if (archive.text("case") != resolved_case)
@@ -135,12 +141,17 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
 
     // Families and contact candidates are those of the last refresh, made again from its positions.
     model.isometries.restore(isometries(archive.reals("isometries")));
-    model.isometries.set_generators(generators(at.stage));
+    enter_stage(at.stage);
     copy_checked(vectors(archive.reals("refresh_position")), points.position, "position");
     copy_checked(archive.reals("volume"), points.volume, "volume");
     copy_checked(archive.reals("jacobian"), points.jacobian, "J");
     find_first_families(model, parts.force_state);
+    const std::vector<Vector3> shifts = vectors(archive.reals("obstacle_shift"));
+    for (std::size_t o = 0; o < model.obstacles.size(); ++o)
+        model.obstacles[o].shift = shifts.at(o);
     parts.contact.find_candidates(model, contact_slack);
+    parts.contact.set_rooms(model, archive.reals("surface_room"));
+    parts.contact.set_deepest_overlap(archive.reals("deepest_overlap"));
     copy_checked(archive.reals("bond_state"), model.bonds.state, "bond state");
     copy_checked(archive.bytes("bond_active"), model.bonds.active, "bond activity");
     copy_checked(archive.reals("point_state"), model.point_state, "point state");
@@ -167,6 +178,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     dynamics.force_scale = reals.at(13);
     dynamics.ledger.verlet = reals.at(14);
     dynamics.force_squared_per_mass = reals.at(15);
+    dynamics.ledger.boundary = reals.at(16);
     dynamics.refreshes = static_cast<std::uint64_t>(integers.at(6));
     parts.dynamics.restore(dynamics);
 }

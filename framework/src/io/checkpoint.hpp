@@ -54,10 +54,10 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
                       const std::string& resolved_case);
 
 /// Restores a model that was built from the same case; constraints of the stage remain to be set.
-/// @param generators gives the isometries that make the images of a stage
+/// @param enter_stage gives the model the images and obstacles of a stage
 /// @param contact_slack as for ContactForces::find_candidates [m]
 /// @throws ForeignCheckpoint when it was written by another case, std::runtime_error when it cannot be read.
 void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case,
-                     double contact_slack, const std::function<std::vector<Isometry>(std::uint64_t stage)>& generators);
+                     double contact_slack, const std::function<void(std::uint64_t stage)>& enter_stage);
 
 } // namespace periporo

@@ -9,6 +9,7 @@
 #include "families/sub_horizons.hpp"
 #include "model/aligned.hpp"
 #include "model/images.hpp"
+#include "model/obstacle.hpp"
 #include "model/points.hpp"
 #include "periporo/material.hpp"
 
@@ -97,6 +98,7 @@ struct Model {
     double horizon = 0.0; ///< delta [m]
     Vector3 gravity = Vector3::Zero();
     std::vector<Body> bodies;
+    std::vector<Obstacle> obstacles;
     Points points;
     IsometryTable isometries;
     bool wet = false; ///< has some point suction or saturation? As update_records() found it.

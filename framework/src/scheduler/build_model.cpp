@@ -3,13 +3,18 @@
 //
 #include "scheduler/build_model.hpp"
 
+#include "contact/assignment.hpp"
+#include "model/body_fill.hpp"
 #include "operator/bond_update.hpp"
 #include "operator/refresh.hpp"
+#include "scheduler/geometries.hpp"
+#include "scheduler/held_points.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -30,7 +35,7 @@ bool kept(const CaseDescription& description, const Vector3& x)
 {
     return std::all_of(description.boundaries.begin(), description.boundaries.end(), [&](const auto& boundary) {
         const double beyond = x[boundary.plane.axis] - boundary.plane.offset;
-        return boundary.type == "fixed" || (beyond >= 0.0 && (boundary.type != "periodic" || beyond < boundary.period));
+        return beyond >= 0.0 && (boundary.type != "periodic" || beyond < boundary.period);
     });
 }
 
@@ -46,22 +51,40 @@ std::uint64_t curve_position(const Vector3& x, const Vector3& lower, double spac
     return code;
 }
 
-void add_body(BuiltModel& built, const CaseDescription& description, std::size_t index, const PluginRegistry& registry)
+/// The points of a body, and what a user should know of them.
+PointCloud fill_with_points(BuiltModel& built, const CaseDescription& description, const BodyDescription& body,
+                            Geometries& geometries, const BuildProgress& progress)
 {
-    const BodyDescription& body = description.bodies[index];
-    const auto geometry = registry.make_geometry(body.geometry.name, body.geometry.parameters);
     PointCloud cloud;
+    double volume = 0.0;
     try {
-        cloud = geometry->fill(description.discretization.spacing);
+        const std::shared_ptr<const Geometry> geometry = geometries.make(body.geometry);
+        cloud = fill_body(*geometry, description.discretization.spacing, body.fill, [&](double fraction) {
+            if (progress)
+                progress(body.name, fraction);
+        });
+        volume = geometry->volume();
+        for (const std::string& remark : geometry->remarks())
+            built.remarks.push_back(fmt::format("body '{}': {}", body.name, remark));
     } catch (const std::exception& error) {
         throw std::runtime_error(fmt::format("body '{}': {}", body.name, error.what()));
     }
     const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
-    const double difference = filled / geometry->volume() - 1.0;
+    const double difference = filled / volume - 1.0;
     if (std::abs(difference) > 1e-9)
-        built.remarks.push_back(fmt::format("body '{}': whole cells hold {:.2f} per cent {} than its exact volume",
+        built.remarks.push_back(fmt::format("body '{}': its points have {:.2f} per cent {} mass than its exact volume "
+                                            "would",
                                             body.name, 100.0 * std::abs(difference),
                                             difference > 0.0 ? "more" : "less"));
+    return cloud;
+}
+
+void add_body(BuiltModel& built, const CaseDescription& description, std::size_t index, const PluginRegistry& registry,
+              Geometries& geometries, const BuildProgress& progress)
+{
+    const BodyDescription& body = description.bodies[index];
+    const PointCloud cloud = fill_with_points(built, description, body, geometries, progress);
+    const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
     Points& points = built.model.points;
     const double density = mixture_density(description, body);
     Vector3 centre = Vector3::Zero();
@@ -98,24 +121,60 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         {body.name, make_material(description, body, registry), body.initial_stress.overconsolidation_ratio});
 }
 
-std::vector<std::uint32_t> fixed_points(const Model& model, const BoundaryDescription& boundary)
+void add_obstacles(BuiltModel& built, const CaseDescription& description, Geometries& geometries)
 {
-    std::vector<std::uint32_t> fixed;
-    for (std::uint32_t i = 0; i < model.size(); ++i)
-        if (model.points.initial_position[i][boundary.plane.axis] < boundary.plane.offset)
-            fixed.push_back(i);
-    return fixed;
+    for (const ObstacleDescription& obstacle : description.obstacles) {
+        try {
+            const std::shared_ptr<const Geometry> geometry = geometries.make(obstacle.geometry);
+            if (!geometry->has_distance())
+                throw std::runtime_error(
+                    fmt::format("geometry '{}' cannot tell the distance from its surface, which an "
+                                "obstacle needs",
+                                obstacle.geometry.name));
+            for (const std::string& remark : geometry->remarks())
+                built.remarks.push_back(fmt::format("obstacle '{}': {}", obstacle.name, remark));
+            built.model.obstacles.push_back({obstacle.name, geometry});
+        } catch (const std::exception& error) {
+            throw std::runtime_error(fmt::format("obstacle '{}': {}", obstacle.name, error.what()));
+        }
+    }
 }
 
-void remark_on_fixed_points(BuiltModel& built, const BoundaryDescription& boundary)
+template <class Named>
+std::optional<std::uint32_t> number_of(const std::vector<Named>& things, const std::string& name)
 {
-    const std::size_t count = fixed_points(built.model, boundary).size();
-    const std::string where = fmt::format("{} < {:.4g} m", "xyz"[boundary.plane.axis], boundary.plane.offset);
-    if (count == 0 || count == built.model.size())
-        throw std::runtime_error(fmt::format("boundary 'fixed': {} of the {} points begin at {}; a fixed region holds "
-                                             "some and leaves others free",
-                                             count == 0 ? "none" : "all", built.model.size(), where));
-    built.remarks.push_back(fmt::format("{} points are fixed, those that begin at {}", count, where));
+    for (std::uint32_t n = 0; n < things.size(); ++n)
+        if (things[n].name == name)
+            return n;
+    return std::nullopt;
+}
+
+ContactAssignment assignment_of(const Model& model, const ContactDescription& contact, const PluginRegistry& registry)
+{
+    const std::shared_ptr<Contact> law = registry.make_contact(contact.law.name, contact.law.parameters);
+    ContactAssignment assignment{law, {}, {}, {}};
+    for (const std::string& name : contact.between) {
+        if (const auto body = number_of(model.bodies, name))
+            assignment.bodies.push_back(*body);
+        else
+            assignment.obstacle = number_of(model.obstacles, name);
+    }
+    if (!contact.surface.empty())
+        assignment.surface_body = number_of(model.bodies, contact.surface);
+    const auto refuse = [&](const std::string& reason) {
+        throw std::runtime_error(
+            fmt::format("contact '{}' between {}: {}", contact.law.name, fmt::join(contact.between, " and "), reason));
+    };
+    if (law->surface() != nullptr && (assignment.obstacle || assignment.surface_body))
+        refuse("the law brings a surface of its own; name only the bodies that touch it");
+    if (!at_rigid_surface(assignment) && assignment.bodies.size() == 1)
+        assignment.bodies.push_back(assignment.bodies.front());
+    const bool surface = at_rigid_surface(assignment) || assignment.surface_body;
+    law->scale({model.spacing, model.horizon, surface ? ContactPartner::surface : ContactPartner::points});
+    if (law->cutoff() >= model.horizon)
+        refuse(
+            fmt::format("its cut-off {:.4g} m is not shorter than the horizon {:.4g} m", law->cutoff(), model.horizon));
+    return assignment;
 }
 
 void order_along_curve(Points& points, double spacing)
@@ -163,38 +222,39 @@ double mixture_density(const CaseDescription& description, const BodyDescription
     return material.grain_density * (1.0 - material.porosity) + body.saturation * material.porosity * water_density;
 }
 
-BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry)
+BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry,
+                       const BuildProgress& progress)
 {
     BuiltModel built;
     Model& model = built.model;
     model.spacing = description.discretization.spacing;
     model.horizon = description.discretization.horizon_ratio * model.spacing;
     model.gravity = description.gravity;
+    Geometries geometries(description, registry);
     for (std::size_t b = 0; b < description.bodies.size(); ++b)
-        add_body(built, description, b, registry);
+        add_body(built, description, b, registry, geometries, progress);
+    add_obstacles(built, description, geometries);
     order_along_curve(model.points, model.spacing);
     model.allocate();
-    for (const BoundaryDescription& boundary : description.boundaries)
-        if (boundary.type == "fixed")
-            remark_on_fixed_points(built, boundary);
-
-    for (const ContactDescription& contact : description.contacts) {
-        const std::shared_ptr<Contact> law = registry.make_contact(contact.law.name, contact.law.parameters);
-        law->scale({model.spacing, model.horizon});
-        if (law->cutoff() >= model.horizon)
-            throw std::runtime_error(fmt::format("contact '{}': its cut-off {:.4g} m is not shorter than the horizon "
-                                                 "{:.4g} m",
-                                                 contact.law.name, law->cutoff(), model.horizon));
-        std::vector<std::uint32_t> bodies;
-        for (const std::string& name : contact.between)
-            for (std::uint32_t b = 0; b < description.bodies.size(); ++b)
-                if (description.bodies[b].name == name)
-                    bodies.push_back(b);
-        if (law->surface() == nullptr && bodies.size() == 1)
-            bodies.push_back(bodies.front());
-        built.contacts.push_back({law, bodies});
+    for (const HeldRegionDescription& region : description.held_regions) {
+        built.held_regions.push_back(points_of_region(model, region, geometries));
+        built.remarks.push_back(describe_region(region, built.held_regions.back().size()));
     }
+    for (const ContactDescription& contact : description.contacts)
+        built.contacts.push_back(assignment_of(model, contact, registry));
     return built;
+}
+
+void set_obstacles(Model& model, const CaseDescription& description, const StageDescription& stage)
+{
+    for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+        const ObstacleDescription& obstacle = description.obstacles[o];
+        const bool moves = obstacle.moves_in
+                               ? std::ranges::find(*obstacle.moves_in, stage.name) != obstacle.moves_in->end()
+                               : stage.type == "dynamic";
+        model.obstacles[o].velocity = moves ? obstacle.velocity : Vector3(Vector3::Zero());
+        model.obstacles[o].present = applies_in(obstacle.stages, stage);
+    }
 }
 
 std::vector<Isometry> image_generators(const CaseDescription& description, const StageDescription& stage)
@@ -203,37 +263,13 @@ std::vector<Isometry> image_generators(const CaseDescription& description, const
     for (const BoundaryDescription& boundary : description.boundaries) {
         if (boundary.type == "periodic")
             generators.push_back(Isometry::shift(boundary.plane.axis, boundary.period));
-        else if (boundary.type == "symmetry")
+        else
             generators.push_back(Isometry::reflection(boundary.plane.axis, boundary.plane.offset));
     }
     for (const PlaneDescription& roller : stage.rollers)
         if (roller.axis != cylinder_axis)
             generators.push_back(Isometry::reflection(roller.axis, roller.offset));
     return generators;
-}
-
-std::vector<HeldDirection> held_directions(const Model& model, const CaseDescription& description,
-                                           const StageDescription& stage)
-{
-    std::vector<HeldDirection> held;
-    for (const BoundaryDescription& boundary : description.boundaries) {
-        if (boundary.type != "fixed")
-            continue;
-        for (const std::uint32_t i : fixed_points(model, boundary))
-            for (Eigen::Index c = 0; c < 3; ++c)
-                held.push_back({i, Vector3::Unit(c)});
-    }
-    for (const PlaneDescription& roller : stage.rollers) {
-        if (roller.axis != cylinder_axis)
-            continue;
-        for (std::uint32_t i = 0; i < model.size(); ++i) {
-            const Vector3& x = model.points.initial_position[i];
-            const Vector3 radial(x.x(), x.y(), 0.0);
-            if (radial.norm() > roller.offset - model.spacing)
-                held.push_back({i, radial.normalized()});
-        }
-    }
-    return held;
 }
 
 void initialize_materials(Model& model, const ForceState& force_state)

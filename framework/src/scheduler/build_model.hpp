@@ -7,9 +7,10 @@
 #include "case/description.hpp"
 #include "contact/contact_forces.hpp"
 #include "model/model.hpp"
+#include "operator/force_state.hpp"
 #include "plugins/registry.hpp"
-#include "time/dynamics.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,21 +27,24 @@ double mixture_density(const CaseDescription& description, const BodyDescription
 struct BuiltModel {
     Model model;
     std::vector<ContactAssignment> contacts;
-    std::vector<std::string> remarks; ///< what a user should know: points cut away, mass of whole cells against exact
+    std::vector<std::vector<std::uint32_t>> held_regions; ///< points of each held region of the case
+    std::vector<std::string> remarks; ///< what a user should know: points cut away, mass against exact, repairs
 };
+
+/// Hears how much of a body is filled, from 0 to 1.
+using BuildProgress = std::function<void(const std::string& body, double fraction)>;
 
 /// Points of all bodies, cut at symmetry planes (the side of larger coordinates stays) and to periodic cells, in the
 /// order of a space-filling curve.
 /// @throws PluginError or std::runtime_error naming the body when a geometry cannot be filled.
-BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry);
+BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry,
+                       const BuildProgress& progress = {});
 
 /// Isometries of the boundaries of the case and the plane rollers of a stage.
 std::vector<Isometry> image_generators(const CaseDescription& description, const StageDescription& stage);
 
-/// Points of fixed regions, in all directions, and points at the cylindrical rollers of a stage ("r = 100 mm", about
-/// the z axis), within one spacing of the outermost ring, in the radial direction.
-std::vector<HeldDirection> held_directions(const Model& model, const CaseDescription& description,
-                                           const StageDescription& stage);
+/// Gives the obstacles of the case what they do in a stage.
+void set_obstacles(Model& model, const CaseDescription& description, const StageDescription& stage);
 
 /// Initial effective stress of all bonds (tension-positive, from the depth of the middle of the bond below the top of
 /// its body: sigma_v = -rho g depth - S_r s, sigma_h = K0 sigma_v) and the state of the materials that goes with it.

@@ -37,9 +37,9 @@ OutputSchedule::OutputSchedule(const CaseDescription& description, const PluginR
             {registry.make_output(output.writer.name, output.writer.parameters), times_of(output, end), never});
 }
 
-void OutputSchedule::begin(RunDescription run)
+void OutputSchedule::begin(const Model& model, RunDescription run)
 {
-    run.history = history_columns();
+    run.history = history_columns(model);
     for (Output& output : outputs_)
         output.writer->begin(run);
 }

@@ -22,7 +22,7 @@ public:
     /// @throws PluginError
     OutputSchedule(const CaseDescription& description, const PluginRegistry& registry);
 
-    void begin(RunDescription run);
+    void begin(const Model& model, RunDescription run);
     /// Snapshots and history rows that are due at the present time of a dynamic stage.
     void write_due(const Model& model, const ForceState& force_state, const Dynamics& dynamics, RunPosition& at,
                    const std::string& stage);

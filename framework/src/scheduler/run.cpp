@@ -6,6 +6,7 @@
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
 #include "scheduler/progress.hpp"
+#include "scheduler/set_up_picture.hpp"
 #include "scheduler/simulation.hpp"
 
 #include <fmt/format.h>
@@ -81,6 +82,8 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
                                 ? fmt::format("suction {:.4g} Pa at saturation {:.3g}", body.suction, body.saturation)
                                 : "dry");
     }
+    for (const ObstacleDescription& obstacle : description.obstacles)
+        text += fmt::format("  obstacle '{}': {}\n", obstacle.name, obstacle.geometry.name);
     for (const std::string& remark : built.remarks)
         text += fmt::format("  {}\n", remark);
     text += fmt::format("  spacing {:.4g} m, horizon {:.4g} m, {} bonds ({:.1f} a point), {} images\n", model.spacing,
@@ -115,6 +118,11 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
         "  {:.1f} MB; about {} for the dynamic stages on {} threads", 1e-6 * static_cast<double>(model.memory()),
         duration_text(2.0 * seconds * point_steps / static_cast<double>(model.size())), omp_get_max_threads());
     return text;
+}
+
+void draw_case(const CaseDescription& description, const PluginRegistry& registry, const std::filesystem::path& file)
+{
+    draw_set_up(build_model(description, registry), description).save(file);
 }
 
 } // namespace periporo

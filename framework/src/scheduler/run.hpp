@@ -32,4 +32,8 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
 /// The case in plain words: bodies, points, families, stages, stable step, memory and the work ahead.
 std::string explain_case(const CaseDescription& description, const PluginRegistry& registry);
 
+/// Draws the case as it begins into an SVG file; an older one is replaced.
+/// @throws std::runtime_error naming the file when it cannot be written.
+void draw_case(const CaseDescription& description, const PluginRegistry& registry, const std::filesystem::path& file);
+
 } // namespace periporo

@@ -5,6 +5,7 @@
 
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
+#include "scheduler/held_points.hpp"
 #include "scheduler/provenance.hpp"
 #include "scheduler/summary.hpp"
 #include "scheduler/vertical_stress.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 
 namespace periporo {
@@ -21,6 +23,7 @@ constexpr int first_iterations = 40; // of the frequency estimate when a stage b
 constexpr int later_iterations = 8;  // when it is renewed
 constexpr std::uint64_t steps_per_estimate = 50;
 constexpr std::uint64_t steps_per_point_check = 100;
+constexpr double far_overlap = 2.0; // over the reach of a contact: a point lies as deep inside as it should lie outside
 
 DynamicsSettings settings_of(const CaseDescription& description)
 {
@@ -46,9 +49,13 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
       outputs_(description, registry), progress_(options.quiet), started_(std::chrono::steady_clock::now()),
       last_checkpoint_(started_)
 {
-    BuiltModel built = build_model(description, registry);
+    BuiltModel built = build_model(description, registry, [this](const std::string& body, double fraction) {
+        progress_.update([&] { return fmt::format("filling body '{}': {:.0f} %", body, 100.0 * fraction); });
+    });
+    progress_.clear();
     model_ = std::move(built.model);
     contact_ = ContactForces(std::move(built.contacts));
+    held_regions_ = std::move(built.held_regions);
     for (const std::string& remark : built.remarks)
         log_->info(remark);
 }
@@ -56,7 +63,7 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
 RunOutcome Simulation::run()
 {
     restore();
-    outputs_.begin(describe_run());
+    outputs_.begin(model_, describe_run());
     try {
         for (; at_.stage < description_.stages.size(); ++at_.stage) {
             const StageDescription& stage = description_.stages[at_.stage];
@@ -109,14 +116,19 @@ void Simulation::restore()
         return;
     }
     read_checkpoint(file, {model_, *force_state_, contact_, dynamics_, frequency_, at_}, description_.resolved,
-                    settings_of(description_).skin, [this](std::uint64_t stage) {
-                        return image_generators(description_, description_.stages.at(stage));
-                    });
-    dynamics_.hold(held_directions(model_, description_, description_.stages[at_.stage]));
+                    settings_of(description_).skin,
+                    [this](std::uint64_t stage) { enter_stage(description_.stages.at(stage)); });
+    dynamics_.hold(held_directions(model_, description_, held_regions_, description_.stages[at_.stage]));
     reports_ = nlohmann::json::parse(at_.stage_reports);
     resuming_ = true;
     log_->info("resumed in stage '{}' at step {}, time {:.6g} s", description_.stages[at_.stage].name, at_.step,
                at_.time);
+}
+
+void Simulation::enter_stage(const StageDescription& stage)
+{
+    model_.isometries.set_generators(image_generators(description_, stage));
+    set_obstacles(model_, description_, stage);
 }
 
 void Simulation::begin_stage()
@@ -125,7 +137,8 @@ void Simulation::begin_stage()
     at_.stage_step = 0;
     at_.moved = false;
     at_.stage_start = at_.time;
-    model_.isometries.set_generators(image_generators(description_, stage));
+    check_rollers(model_, stage);
+    enter_stage(stage);
     if (at_.stage == 0) {
         find_first_families(model_, *force_state_);
         set_initial_stress(model_, *force_state_, description_);
@@ -137,7 +150,7 @@ void Simulation::begin_stage()
     } else {
         dynamics_.refresh();
     }
-    dynamics_.hold(held_directions(model_, description_, stage));
+    dynamics_.hold(held_directions(model_, description_, held_regions_, stage));
     renew_step(first_iterations);
     dynamics_.start();
     if (!is_quasi_static(stage) && !at_.ledger_open) {
@@ -159,11 +172,17 @@ void Simulation::end_stage()
                           {"residual", dynamics_.residual()},
                           {"mean_speed", dynamics_.mean_speed()}};
     if (is_quasi_static(stage)) {
-        if (const std::optional<VerticalStress> profile = vertical_stress(model_, *force_state_)) {
+        const auto settled = std::ranges::find_if(
+            description_.bodies, [](const BodyDescription& body) { return body.initial_stress.type == "geostatic"; });
+        const auto body = settled == description_.bodies.end()
+                              ? 0u
+                              : static_cast<std::uint32_t>(settled - description_.bodies.begin());
+        if (const std::optional<VerticalStress> profile = vertical_stress(model_, *force_state_, body)) {
             report["vertical_stress"] = to_json(*profile);
-            log_->info("vertical stress against rho g depth: largest deviation of a layer {:.1f} per cent of the "
-                       "stress at the bottom, {:.1f} per cent more than a horizon away from the ends",
-                       100.0 * profile->largest_deviation, 100.0 * profile->inner_deviation);
+            log_->info(
+                "body '{}', vertical stress against rho g depth: largest deviation of a layer {:.1f} per cent of "
+                "the stress at the bottom, {:.1f} per cent more than a horizon away from the ends",
+                description_.bodies[body].name, 100.0 * profile->largest_deviation, 100.0 * profile->inner_deviation);
         }
         if (stage.response == "elastic")
             initialize_materials(model_, *force_state_);
@@ -171,10 +190,21 @@ void Simulation::end_stage()
         outputs_.write_now(model_, *force_state_, at_, stage.name);
     }
     reports_.push_back(report);
+    report_contacts();
     log_->info("stage '{}' ended: {} steps, residual {:.2e}, mean speed {:.2e} m/s", stage.name, at_.stage_step,
                dynamics_.residual(), dynamics_.mean_speed());
     if (is_quasi_static(stage))
         std::fill(model_.points.velocity.begin(), model_.points.velocity.end(), Vector3::Zero());
+}
+
+void Simulation::report_contacts()
+{
+    const std::vector<double>& deepest = contact_.deepest_overlap();
+    for (std::size_t c = 0; c < deepest.size(); ++c)
+        if (deepest[c] > far_overlap)
+            log_->warn("contact {} between {}: a point went through, {:.1f} times the reach of the law; a stiffer law "
+                       "or a thicker obstacle would hold it",
+                       c, fmt::join(description_.contacts[c].between, " and "), deepest[c]);
 }
 
 void Simulation::renew_step(int iterations)
@@ -318,6 +348,10 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
     const double steps_per_second = static_cast<double>(steps_here_) / std::max(here, 1e-9);
     const double point_rate = static_cast<double>(model_.size()) * steps_per_second;
     nlohmann::json summary = summary_of(description_, model_, dynamics_);
+    for (std::size_t c = 0; c < description_.contacts.size(); ++c)
+        summary["contacts"].push_back({{"law", description_.contacts[c].law.name},
+                                       {"between", description_.contacts[c].between},
+                                       {"deepest_overlap", contact_.deepest_overlap().at(c)}});
     summary["outcome"] = outcome;
     summary["message"] = message;
     summary["steps"] = at_.step;

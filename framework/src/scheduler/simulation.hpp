@@ -34,8 +34,12 @@ public:
 private:
     RunDescription describe_run() const;
     void restore();
+    /// Gives the model the images and obstacles of a stage.
+    void enter_stage(const StageDescription& stage);
     void begin_stage();
     void end_stage();
+    /// Warns of points that went through what they touched.
+    void report_contacts();
     /// Returns false when interrupted.
     bool quasi_static(const StageDescription& stage);
     bool dynamic(const StageDescription& stage);
@@ -56,6 +60,7 @@ private:
     Model model_;
     std::unique_ptr<ForceState> force_state_;
     ContactForces contact_;
+    std::vector<std::vector<std::uint32_t>> held_regions_; ///< see BuiltModel
     Dynamics dynamics_;
     FrequencyEstimate frequency_;
     RunPosition at_;

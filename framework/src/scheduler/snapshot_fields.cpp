@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numeric>
 
@@ -96,22 +97,33 @@ const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const 
     return fields_;
 }
 
-std::vector<HistoryColumn> history_columns()
+std::vector<HistoryColumn> history_columns(const Model& model)
 {
-    return {{"time", "s", "since the start of the first dynamic stage"},
-            {"time_step", "s", "step of the time integration"},
-            {"kinetic_energy", "J", "sum of m v^2/2"},
-            {"gravity_energy", "J", "potential energy relative to the release"},
-            {"stress_work", "J", "work of the stress on the deformation: stored and dissipated in the material"},
-            {"contact_energy", "J", "stored in contacts"},
-            {"friction_work", "J", "dissipated by friction"},
-            {"collision_work", "J", "dissipated in the normal direction of contacts"},
-            {"energy_error", "J", "sum of the energies minus their sum at the release"},
-            {"maximum_speed", "m/s", "largest speed of a point"},
-            {"front", "m", "largest horizontal distance of a point from the vertical axis through the origin"},
-            {"height", "m", "largest vertical coordinate of a point plus half a spacing"},
-            {"inactive_bonds", "-", "bonds that carry no stress because their sub-horizon is degenerate"},
-            {"free_grains", "-", "points without an active bond"}};
+    std::vector<HistoryColumn> columns{
+        {"time", "s", "since the start of the first dynamic stage"},
+        {"time_step", "s", "step of the time integration"},
+        {"kinetic_energy", "J", "sum of m v^2/2"},
+        {"gravity_energy", "J", "potential energy relative to the release"},
+        {"stress_work", "J", "work of the stress on the deformation: stored and dissipated in the material"},
+        {"contact_energy", "J", "stored in contacts"},
+        {"friction_work", "J", "dissipated by friction"},
+        {"collision_work", "J", "dissipated in the normal direction of contacts"},
+        {"boundary_work", "J", "done on the bodies by moving points and obstacles"},
+        {"energy_error", "J", "sum of the energies minus their sum at the release and the boundary work"},
+        {"maximum_speed", "m/s", "largest speed of a point"},
+        {"front", "m", "largest horizontal distance of a point from the vertical axis through the origin"},
+        {"height", "m", "largest vertical coordinate of a point plus half a spacing"},
+        {"inactive_bonds", "-", "bonds that carry no stress because their sub-horizon is degenerate"},
+        {"free_grains", "-", "points without an active bond"}};
+    for (const Obstacle& obstacle : model.obstacles)
+        for (const char axis : {'x', 'y', 'z'}) {
+            columns.push_back({fmt::format("{}_force_{}", obstacle.name, axis), "N",
+                               fmt::format("force on obstacle '{}', of the points that are computed, without images",
+                                           obstacle.name)});
+            columns.push_back({fmt::format("{}_shift_{}", obstacle.name, axis), "m",
+                               fmt::format("how far obstacle '{}' has moved", obstacle.name)});
+        }
+    return columns;
 }
 
 std::vector<double> history_row(const Model& model, const Dynamics& dynamics, double time, double time_step)
@@ -126,7 +138,7 @@ std::vector<double> history_row(const Model& model, const Dynamics& dynamics, do
         height = std::max(height, x.z() + 0.5 * model.spacing);
     }
     const EnergyLedger& ledger = dynamics.ledger();
-    return {
+    std::vector<double> row{
         time,
         time_step,
         ledger.kinetic,
@@ -135,12 +147,19 @@ std::vector<double> history_row(const Model& model, const Dynamics& dynamics, do
         ledger.contact,
         ledger.friction,
         ledger.collision,
+        ledger.boundary,
         ledger.error(),
         speed,
         front,
         height,
         static_cast<double>(std::accumulate(model.inactive_bonds.begin(), model.inactive_bonds.end(), std::size_t{0})),
         static_cast<double>(std::accumulate(model.free_grain.begin(), model.free_grain.end(), std::size_t{0}))};
+    for (std::size_t o = 0; o < model.obstacles.size(); ++o)
+        for (Eigen::Index c = 0; c < 3; ++c) {
+            row.push_back(-dynamics.contact().reactions_of_obstacles()[o][c]);
+            row.push_back(model.obstacles[o].shift[c]);
+        }
+    return row;
 }
 
 } // namespace periporo

@@ -31,8 +31,8 @@ private:
     std::vector<FieldView> fields_;
 };
 
-/// Columns of every history row, and the row itself in the same order.
-std::vector<HistoryColumn> history_columns();
+/// Columns of every history row, and the row itself in the same order; obstacles add theirs.
+std::vector<HistoryColumn> history_columns(const Model& model);
 std::vector<double> history_row(const Model& model, const Dynamics& dynamics, double time, double time_step);
 
 } // namespace periporo

@@ -43,6 +43,7 @@ nlohmann::json summary_of(const CaseDescription& description, const Model& model
               {"contact", ledger.contact},
               {"friction", ledger.friction},
               {"collision", ledger.collision},
+              {"boundary", ledger.boundary},
               {"error", ledger.error()}}}};
 }
 

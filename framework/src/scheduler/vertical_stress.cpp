@@ -11,7 +11,7 @@
 
 namespace periporo {
 
-std::optional<VerticalStress> vertical_stress(const Model& model, const ForceState& force_state)
+std::optional<VerticalStress> vertical_stress(const Model& model, const ForceState& force_state, std::uint32_t body)
 {
     const double g = model.gravity.norm();
     if (g <= 0.0)
@@ -21,12 +21,15 @@ std::optional<VerticalStress> vertical_stress(const Model& model, const ForceSta
     mean_point_states(model, force_state, states);
     double top = -INFINITY;
     for (std::size_t i = 0; i < model.size(); ++i)
-        top = std::max(top, model.points.position[i].dot(up) + 0.5 * model.spacing);
+        if (model.points.body[i] == body)
+            top = std::max(top, model.points.position[i].dot(up) + 0.5 * model.spacing);
     struct Sums {
         double stress = 0.0, expected = 0.0, depth = 0.0, count = 0.0;
     };
     std::map<long, Sums> layers;
     for (std::size_t i = 0; i < model.size(); ++i) {
+        if (model.points.body[i] != body)
+            continue;
         const double* s = states.data() + i * model.state_stride;
         Eigen::Matrix3d stress;
         stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];

@@ -15,7 +15,7 @@ namespace periporo {
 
 struct VerticalStress {
     struct Layer {
-        double depth;    ///< mean of the points, below the top of the highest one [m]
+        double depth;    ///< mean of the points, below the top of the body [m]
         double stress;   ///< mean total vertical stress, tension-positive [Pa]
         double expected; ///< mean of -rho g depth [Pa]
     };
@@ -26,9 +26,8 @@ struct VerticalStress {
     double inner_deviation = 0.0;
 };
 
-/// Layers of one spacing across all bodies; nothing without gravity. For columns of one material: what stands beside or
-/// above with another density is not seen.
-std::optional<VerticalStress> vertical_stress(const Model& model, const ForceState& force_state);
+/// Layers of one spacing across a body; nothing without gravity. What stands on the body is not seen.
+std::optional<VerticalStress> vertical_stress(const Model& model, const ForceState& force_state, std::uint32_t body);
 
 nlohmann::json to_json(const VerticalStress& profile);
 

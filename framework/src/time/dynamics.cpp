@@ -28,11 +28,16 @@ void Dynamics::refresh()
 void Dynamics::start()
 {
     state_.force_scale = 0.0;
-    apply_held(model_.points.velocity);
+    // What comes, goes or begins to move at once does work too: points that are brought to speed, contacts with an
+    // obstacle that is taken away.
+    const double before = kinetic_energy() + contact_.energy();
+    hold_velocities();
     model_.update_records();
     contact_.find_candidates(model_, settings_.skin);
+    contact_.make_room(model_);
     force_state_.evaluate(model_, {StressUpdate::keep, MaterialResponse::full, 0.0});
     sum_forces({});
+    state_.ledger.boundary += kinetic_energy() + contact_.energy() - before;
     state_.force_squared_per_mass = force_squared_per_mass();
 }
 
@@ -47,6 +52,7 @@ void Dynamics::step(const StepOptions& options)
     });
     if (refresh_due)
         refresh();
+    times_.time(Phase::contact, [&] { contact_.follow_surfaces(model_); });
     times_.time_operator(model_, [&] {
         force_state_.evaluate(model_, {StressUpdate::advance, options.response, options.time_step});
     });
@@ -65,6 +71,8 @@ void Dynamics::drift(double time_step)
         points.velocity[i] += 0.5 * time_step / points.mass[i] * points.force[i];
         points.position[i] += time_step * points.velocity[i];
     }
+    for (Obstacle& obstacle : model_.obstacles)
+        obstacle.shift += time_step * obstacle.velocity;
 }
 
 void Dynamics::kick(double time_step)
@@ -98,8 +106,10 @@ void Dynamics::update_ledger(double time_step)
     ledger.verlet -= 0.125 * time_step * time_step * (lent - state_.force_squared_per_mass);
     state_.force_squared_per_mass = lent;
     ledger.stress_work += stress;
-    ledger.friction -= time_step * friction;
-    ledger.collision -= time_step * collision;
+    const ObstaclePower& obstacles = contact_.obstacle_power();
+    ledger.friction -= time_step * (friction - obstacles.friction);
+    ledger.collision -= time_step * (collision - obstacles.damping);
+    ledger.boundary += time_step * (obstacles.reaction + held_power_);
 }
 
 void Dynamics::sum_forces(const StepOptions& options)
@@ -113,7 +123,7 @@ void Dynamics::sum_forces(const StepOptions& options)
     contact_.add_reactions(model_, options.time_step, options.local_damping > 0.0 ? Approach::none : Approach::real,
                            points.force);
     contact_.add_surface_friction(model_, options.time_step, points.force);
-    apply_held(points.force);
+    held_power_ = hold_forces();
     const double squared_gravity = model_.gravity.squaredNorm();
     const auto [unbalanced, weight] = ordered_sums<2>(n, [&](std::size_t i, std::array<double, 2>& sum) {
         sum[0] += points.force[i].squaredNorm();
@@ -129,7 +139,7 @@ void Dynamics::sum_forces(const StepOptions& options)
                 const double f = points.force[i][c];
                 points.force[i][c] -= options.local_damping * std::abs(f) * static_cast<double>((v > 0.0) - (v < 0.0));
             }
-        apply_held(points.force);
+        hold_forces();
     }
 }
 
@@ -140,10 +150,24 @@ double Dynamics::force_squared_per_mass() const
     })[0];
 }
 
-void Dynamics::apply_held(std::vector<Vector3>& vectors) const
+void Dynamics::hold_velocities()
 {
-    for (const HeldDirection& held : held_)
-        vectors[held.point] -= vectors[held.point].dot(held.direction) * held.direction;
+    for (const HeldDirection& held : held_) {
+        Vector3& velocity = model_.points.velocity[held.point];
+        velocity += (held.speed - velocity.dot(held.direction)) * held.direction;
+    }
+}
+
+double Dynamics::hold_forces()
+{
+    double power = 0.0;
+    for (const HeldDirection& held : held_) {
+        Vector3& force = model_.points.force[held.point];
+        const double along = force.dot(held.direction);
+        force -= along * held.direction;
+        power -= along * held.speed;
+    }
+    return power;
 }
 
 void Dynamics::open_ledger()

@@ -20,10 +20,11 @@ struct DynamicsSettings {
     bool refresh_always = false; ///< find families in every step
 };
 
-/// A velocity component that is held at zero: that along `direction` at `point`.
+/// A prescribed velocity component: that of `point` along `direction`.
 struct HeldDirection {
     std::uint32_t point;
-    Vector3 direction;
+    Vector3 direction;  ///< unit vector
+    double speed = 0.0; ///< [m/s]
 };
 
 struct StepOptions {
@@ -47,6 +48,7 @@ public:
     /// Families anew, now: after symmetry planes came or went.
     void refresh();
 
+    /// What is held from the next start() on.
     void hold(std::vector<HeldDirection> held) { held_ = std::move(held); }
 
     /// Sets all energies to zero at the present state.
@@ -73,6 +75,7 @@ public:
     /// sqrt(2 E_kin/m) over all points [m/s].
     double mean_speed() const;
     std::uint64_t refreshes() const { return state_.refreshes; }
+    const ContactForces& contact() const { return contact_; }
 
     /// Where the time of step() and refresh() went; others may add theirs.
     PhaseTimes& times() { return times_; }
@@ -85,7 +88,9 @@ private:
     /// Second half kick and volumes.
     void kick(double time_step);
     void update_ledger(double time_step);
-    void apply_held(std::vector<Vector3>& vectors) const;
+    void hold_velocities();
+    /// Takes away the forces along held directions; returns the power of what holds the points against them [W].
+    double hold_forces();
     double force_squared_per_mass() const;
     double kinetic_energy() const;
     double gravity_energy() const;
@@ -95,6 +100,7 @@ private:
     ContactForces& contact_;
     DynamicsSettings settings_;
     std::vector<HeldDirection> held_;
+    double held_power_ = 0.0; ///< at the last evaluation [W]
     State state_;
     PhaseTimes times_;
 };

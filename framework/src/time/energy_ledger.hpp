@@ -16,13 +16,17 @@ struct EnergyLedger {
     double contact = 0.0;     ///< stored in contacts
     double friction = 0.0;    ///< dissipated by friction
     double collision = 0.0;   ///< dissipated in the normal direction of contacts
+    double boundary = 0.0;    ///< work that moving points and obstacles did on the bodies
     double opening = 0.0;     ///< kinetic + contact when opened
     /// What velocity Verlet lends to the kinetic energy within a period and takes back: minus dt^2 |F|^2/(8m) since the
     /// opening. A step from n to n+1 adds (F_n + F_n+1)/2 . dx to kinetic + verlet exactly.
     double verlet = 0.0;
 
     /// What is missing or too much; 0 but for round-off while stress and contact are linear in the motion of a step.
-    double error() const { return kinetic + verlet + gravity + stress_work + contact + friction + collision - opening; }
+    double error() const
+    {
+        return kinetic + verlet + gravity + stress_work + contact + friction + collision - boundary - opening;
+    }
 };
 
 } // namespace periporo

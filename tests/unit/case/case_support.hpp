@@ -22,6 +22,7 @@ namespace periporo::test {
 /// Refuses an inner radius that is not the smaller one: a check between parameters, made by the constructor.
 class Shell : public Geometry {
 public:
+    Shell() = default;
     explicit Shell(const Parameters& parameters)
     {
         if (parameters.real("inner") >= parameters.real("outer"))
@@ -37,6 +38,18 @@ public:
     Bounds bounds() const override { return {}; }
     double volume() const override { return 0.0; }
     PointCloud fill(double) const override { return {}; }
+};
+
+/// A geometry made of others, and one from a file.
+class Union : public Shell {
+public:
+    explicit Union(const Parameters&) {}
+    static std::vector<Parameter> parameters() { return {Parameter::geometries("of", "What is joined")}; }
+};
+class Scan : public Shell {
+public:
+    explicit Scan(const Parameters&) {}
+    static std::vector<Parameter> parameters() { return {Parameter::file("file", "Points of the scan")}; }
 };
 
 /// Has a parameter of every type.
@@ -85,15 +98,19 @@ public:
     void finish(bool) override {}
 };
 
-/// A registry that knows test_shell, test_clay, test_wall and test_writer.
+/// A registry that knows test_shell, test_union, test_scan, test_clay, test_wall and test_writer.
 inline PluginRegistry test_registry()
 {
     static const PluginDescriptor shell = describe_plugin<PluginKind::geometry, Shell>("test_shell", "A shell");
+    static const PluginDescriptor joint = describe_plugin<PluginKind::geometry, Union>("test_union", "A union");
+    static const PluginDescriptor scan = describe_plugin<PluginKind::geometry, Scan>("test_scan", "A scan");
     static const PluginDescriptor clay = describe_plugin<PluginKind::material, Clay>("test_clay", "A clay");
     static const PluginDescriptor wall = describe_plugin<PluginKind::contact, Wall>("test_wall", "A wall");
     static const PluginDescriptor writer = describe_plugin<PluginKind::output, Writer>("test_writer", "A writer");
     PluginRegistry registry;
     registry.add(shell, "/test/shell.so");
+    registry.add(joint, "/test/union.so");
+    registry.add(scan, "/test/scan.so");
     registry.add(clay, "/test/clay.so");
     registry.add(wall, "/test/wall.so");
     registry.add(writer, "/test/writer.so");
@@ -158,9 +175,23 @@ velocity = [0, "1 mm/s", 0]
 angular_velocity = [0, 0, "2 rad/s"]
 strain_rate = ["1 s^-1", "2 s^-1", "-3 s^-1", "4 s^-1", 0, "5 ms^-1"]
 initial_stress = { type = "geostatic", K0 = 0.53, overconsolidation_ratio = 1.25 }
+fill = { type = "jittered", align = "axes", amplitude = 0.1, seed = 5 }
 [body.bubble]
 geometry = { generator = "test_shell", inner = "1 mm", outer = "2 mm" }
 material = "air"
+fill = { type = "relaxed", seed = 6, iterations = 7 }
+[geometry.core]
+generator = "test_shell"
+inner = "3 mm"
+outer = "4 mm"
+[geometry.rim]
+generator = "test_union"
+of = ["core"]
+[obstacle.plate]
+geometry = { generator = "test_union", of = ["rim"] }
+velocity = [0, 0, "3 mm/s"]
+moves_in = ["collapse"]
+stages = ["settle", "collapse"]
 [[boundary]]
 type = "symmetry"
 plane = "y = -100 mm"
@@ -168,10 +199,32 @@ plane = "y = -100 mm"
 type = "periodic"
 plane = "x = 0"
 period = "1 m"
+[[boundary]]
+type = "fixed"
+plane = "z = 1 mm"
+body = "heap"
+[[boundary]]
+type = "roller"
+layer = ["z = 2 mm", "z = 3 mm"]
+direction = [0, 3, 4]
+[[boundary]]
+type = "moving"
+within = "rim"
+velocity = ["1 mm/s", "2 mm/s", 0]
+stages = ["settle"]
 [[contact]]
 law = "test_wall"
 between = ["heap", "bubble"]
 friction = 0.3
+[[contact]]
+law = "test_wall"
+between = ["bubble", "heap"]
+surface = "heap"
+friction = 0.4
+[[contact]]
+law = "test_wall"
+between = ["heap", "plate"]
+friction = 0.5
 [[stage]]
 name = "settle"
 type = "quasi_static"

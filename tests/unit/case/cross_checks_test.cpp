@@ -24,20 +24,20 @@ TEST_CASE("a contact with a body that is not there is an error at that body")
     CHECK(contains(error.hint, "heap, bubble"));
 }
 
-TEST_CASE("a contact is between one or two bodies")
+TEST_CASE("a contact is between one or two bodies or obstacles")
 {
     for (const std::string list : {"[]", "[\"heap\", \"heap\", \"bubble\"]"}) {
         CAPTURE(list);
         const std::string text = with(full_case, "between = [\"heap\", \"bubble\"]", "between = " + list);
-        CHECK(contains(error_of(text).message, "one or two bodies"));
+        CHECK(contains(error_of(text).message, "one or two things"));
     }
     CHECK(errors_of(with(full_case, "[\"heap\", \"bubble\"]", "[\"heap\"]")).empty());
 }
 
 TEST_CASE("two stages of one name are an error at the second")
 {
-    const std::string text = with(full_case, "name = \"collapse\"", "name = \"settle\" ");
-    CHECK(place_of(error_of(text)) == place_in(text, "\"settle\" "));
+    const std::string text = minimal_case + "[[stage]]\nname = 'collapse'\ntype = \"dynamic\"\nduration = 1\n";
+    CHECK(place_of(error_of(text)) == place_in(text, "'collapse'"));
 }
 
 TEST_CASE("suction without water is an error, water without suction is none")

@@ -46,7 +46,7 @@ TEST_CASE("lists of tables are replaced as a whole")
 {
     const TemporaryFolder folder;
     const CaseDescription read =
-        read_files(folder, {{"base.toml", full_case},
+        read_files(folder, {{"base.toml", minimal_case},
                             {"case.toml", "include = [\"base.toml\"]\n[[stage]]\nname = \"only\"\ntype = \"dynamic\"\n"
                                           "duration = 1\n"}});
     REQUIRE(read.stages.size() == 1);

@@ -130,7 +130,7 @@ TEST_CASE("boundaries, contacts, stages and outputs keep their order and values"
     CHECK(read.boundaries[0].plane.axis == 1);
     CHECK(read.boundaries[0].plane.offset == -0.1);
     CHECK(read.boundaries[1].period == 1.0);
-    REQUIRE(read.contacts.size() == 1);
+    REQUIRE(read.contacts.size() == 3);
     CHECK(read.contacts[0].between == std::vector<std::string>{"heap", "bubble"});
     CHECK(read.contacts[0].law.parameters.real("friction") == 0.3);
     REQUIRE(read.stages.size() == 2);

@@ -5,8 +5,11 @@
 #include "case/reader.hpp"
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
+#include "scheduler/held_points.hpp"
+#include "support/case_text.hpp"
 #include "support/plugins.hpp"
 #include "support/specimens.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -23,6 +26,16 @@ CaseDescription quickstart(const std::vector<std::string>& overrides = {})
     PluginRegistry registry;
     return read_case(PERIPORO_SOURCE_DIR "/cases/column_collapse/quickstart.toml",
                      {overrides, {PERIPORO_BUILD_DIR "/lib/periporo"}}, registry);
+}
+
+/// The quickstart with a text of its own, which overrides it.
+CaseDescription quickstart_with(const std::string& text)
+{
+    const periporo::test::TemporaryFolder folder;
+    periporo::test::write_file(
+        folder / "case.toml", "include = [\"" PERIPORO_SOURCE_DIR "/cases/column_collapse/quickstart.toml\"]\n" + text);
+    PluginRegistry registry;
+    return read_case(folder / "case.toml", {{}, {PERIPORO_BUILD_DIR "/lib/periporo"}}, registry);
 }
 
 BuiltModel built(const CaseDescription& description)
@@ -115,7 +128,8 @@ TEST_CASE("cylindrical rollers hold the radial direction of the outer ring only"
 {
     const CaseDescription description = quickstart({"stage.0.rollers=[\"r = 100 mm\"]"});
     BuiltModel made = built(description);
-    const std::vector<HeldDirection> held = held_directions(made.model, description, description.stages[0]);
+    const std::vector<HeldDirection> held =
+        held_directions(made.model, description, made.held_regions, description.stages[0]);
     CHECK(!held.empty());
     for (const HeldDirection& h : held) {
         const Vector3& x = made.model.points.position[h.point];
@@ -131,7 +145,8 @@ TEST_CASE("a fixed region holds all directions of the points that begin below it
     BuiltModel made = built(description);
     CHECK(made.model.size() == 1200);
     CHECK(image_generators(description, description.stages[0]).empty());
-    const std::vector<HeldDirection> held = held_directions(made.model, description, description.stages[0]);
+    const std::vector<HeldDirection> held =
+        held_directions(made.model, description, made.held_regions, description.stages[0]);
     std::map<std::uint32_t, Vector3> sums;
     for (const HeldDirection& h : held) {
         CHECK(made.model.points.position[h.point].z() < 0.02);
@@ -140,6 +155,107 @@ TEST_CASE("a fixed region holds all directions of the points that begin below it
     CHECK(sums.size() == 200);
     for (const auto& [point, sum] : sums)
         CHECK(sum == Vector3::Ones());
+}
+
+TEST_CASE("rollers and moving regions hold points of a layer, of a geometry and of a body, in their stages")
+{
+    const CaseDescription description = quickstart_with(R"(
+[geometry.corner]
+generator = "box"
+size = ["50 mm", "50 mm", "200 mm"]
+[[boundary]]
+type = "roller"
+layer = ["z = 10 mm", "z = 30 mm"]
+direction = [0, 0, 2]
+stages = ["geostatic"]
+[[boundary]]
+type = "moving"
+within = "corner"
+plane = "z = 20 mm"
+body = "column"
+velocity = [0, "3 mm/s", 0]
+stages = ["collapse"]
+)");
+    const BuiltModel made = built(description);
+    const std::vector<HeldDirection> first =
+        held_directions(made.model, description, made.held_regions, description.stages[0]);
+    CHECK(first.size() == 200);
+    for (const HeldDirection& held : first) {
+        const double z = made.model.points.position[held.point].z();
+        CHECK((z > 0.01 && z < 0.03));
+        CHECK(held.direction == Vector3::UnitZ());
+        CHECK(held.speed == 0.0);
+    }
+    const std::vector<HeldDirection> second =
+        held_directions(made.model, description, made.held_regions, description.stages[1]);
+    CHECK(second.size() == 3 * 5 * 5 * 2);
+    for (const HeldDirection& held : second) {
+        const Vector3& x = made.model.points.position[held.point];
+        CHECK((x.x() < 0.05 && x.y() < 0.05 && x.z() < 0.02));
+        CHECK(held.speed == (held.direction == Vector3::UnitY() ? 3e-3 : 0.0));
+    }
+}
+
+TEST_CASE("a roller with points on both sides is refused, with the way to hold one body")
+{
+    const CaseDescription description = quickstart();
+    const BuiltModel made = built(description);
+    StageDescription stage = description.stages[0];
+    check_rollers(made.model, stage); // x = 100 mm, where the column ends
+    stage.rollers[0].offset = 0.05;
+    CHECK_THROWS_WITH_AS(check_rollers(made.model, stage),
+                         doctest::Contains("600 of the 1200 points lie beyond the roller x = 0.05 m"),
+                         std::runtime_error);
+}
+
+TEST_CASE("an obstacle stands in its stages and moves in its own, and a contact meets it or the surface of a body")
+{
+    const CaseDescription description = quickstart_with(R"(
+[geometry.plate]
+generator = "box"
+size = ["1 m", "1 m", "10 mm"]
+origin = [0, 0, "-10 mm"]
+[obstacle.floor]
+geometry = { generator = "boolean", operation = "union", of = ["plate", "plate"] }
+velocity = [0, 0, "1 m/s"]
+moves_in = ["collapse"]
+stages = ["collapse"]
+[[contact]]
+law = "short_range"
+between = ["column", "floor"]
+modulus = "1 MPa"
+friction = 0
+)");
+    BuiltModel made = built(description);
+    REQUIRE(made.model.obstacles.size() == 1);
+    Vector3 normal;
+    CHECK(made.model.obstacles[0].distance({0.5, 0.5, 3e-3}, normal) ==
+          doctest::Approx(3e-3).epsilon(1e-12).scale(0.0));
+    CHECK(*made.contacts[0].obstacle == 0);
+    CHECK(made.contacts[0].law->cutoff() == doctest::Approx(5e-3).epsilon(1e-12).scale(0.0)); // half a spacing
+    set_obstacles(made.model, description, description.stages[0]);
+    CHECK_FALSE(made.model.obstacles[0].present);
+    CHECK(made.model.obstacles[0].velocity == Vector3::Zero());
+    set_obstacles(made.model, description, description.stages[1]);
+    CHECK(made.model.obstacles[0].present);
+    CHECK(made.model.obstacles[0].velocity == Vector3::UnitZ());
+}
+
+TEST_CASE("a law with a surface of its own meets no obstacle")
+{
+    const CaseDescription description = quickstart_with(R"(
+[obstacle.floor]
+geometry = { generator = "box", size = ["1 m", "1 m", "10 mm"], origin = [0, 0, "-10 mm"] }
+[[contact]]
+law = "rigid_plane"
+between = ["column", "floor"]
+point = [0, 0, 0]
+normal = [0, 0, 1]
+modulus = "1 MPa"
+friction = 0
+)");
+    CHECK_THROWS_WITH_AS(built(description), doctest::Contains("the law brings a surface of its own"),
+                         std::runtime_error);
 }
 
 TEST_CASE("a fixed region that holds no point, or all, is refused")

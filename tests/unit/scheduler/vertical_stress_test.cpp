@@ -28,7 +28,7 @@ std::optional<VerticalStress> profile(const std::function<double(double)>& at, d
         return s;
     });
     force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
-    return vertical_stress(model, *force);
+    return vertical_stress(model, *force, 0);
 }
 
 double weight_above(double height)

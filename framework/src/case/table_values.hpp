@@ -1,0 +1,44 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What checks between tables look at. Values that were wrong themselves are absent and are passed over.
+#pragma once
+
+#include "case/checker.hpp"
+
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace periporo {
+
+/// A value if it was given soundly or has a default. Looks at the values directly: a check is no consumption.
+template <class Value>
+const Value* value_of(const Parameters& values, const std::string& key)
+{
+    const auto found = values.values().find(key);
+    return found == values.values().end() ? nullptr : std::get_if<Value>(&found->second);
+}
+
+template <class Value>
+const Value* value_of(const CheckedTable& table, const std::string& key)
+{
+    return value_of<Value>(table.own, key);
+}
+
+inline std::vector<std::string> names_of(const std::vector<CheckedTable>& tables)
+{
+    std::vector<std::string> names;
+    names.reserve(tables.size());
+    for (const CheckedTable& table : tables)
+        names.push_back(table.name);
+    return names;
+}
+
+inline bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+} // namespace periporo

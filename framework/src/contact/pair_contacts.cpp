@@ -1,0 +1,251 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Contact of points with points: of two bodies, and of free grains with all others of their body.
+#include "contact/assignment.hpp"
+#include "contact/contact_forces.hpp"
+#include "families/cell_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace periporo {
+namespace {
+
+constexpr std::size_t block = 128;
+
+/// Around the points and images of a body, `reach` wider on all sides.
+Bounds box_of(const Model& model, std::uint32_t body, double reach)
+{
+    Bounds box{Vector3::Constant(std::numeric_limits<double>::infinity()),
+               Vector3::Constant(-std::numeric_limits<double>::infinity())};
+    for (std::uint32_t c = 0; c < model.records.size(); ++c)
+        if (model.points.body[model.families.parent(c)] == body) {
+            box.lower = box.lower.cwiseMin(model.records[c].x());
+            box.upper = box.upper.cwiseMax(model.records[c].x());
+        }
+    box.lower.array() -= reach;
+    box.upper.array() += reach;
+    return box;
+}
+
+bool lies_in(const Bounds& box, const Vector3& x)
+{
+    return (x.array() >= box.lower.array()).all() && (x.array() <= box.upper.array()).all();
+}
+
+} // namespace
+
+void ContactForces::find_pairs(const Model& model, std::size_t assignment, double slack)
+{
+    const ContactAssignment& at = assignments_[assignment];
+    const std::size_t n = model.size();
+    // Images were made within the horizon; a cut-off is shorter than that.
+    const double reach = at.law->cutoff() + slack;
+    // Only what lies in the box of the other body, widened by the reach, can touch it.
+    std::array<Bounds, 2> boxes;
+    for (std::size_t b = 0; b < 2; ++b)
+        boxes[b] = box_of(model, at.bodies[b], reach);
+    std::vector<std::uint32_t> near;
+    std::vector<Vector3> positions;
+    for (std::uint32_t c = 0; c < model.records.size(); ++c) {
+        const std::uint32_t body = model.points.body[model.families.parent(c)];
+        if (!names(at, body) || !lies_in(boxes[body == at.bodies[0] ? 1 : 0], model.records[c].x()))
+            continue;
+        near.push_back(c);
+        positions.push_back(model.records[c].x());
+    }
+    Candidates& candidates = candidates_[assignment];
+    candidates.first.assign(n + 1, 0);
+    if (near.empty())
+        return;
+    const CellList cells(positions, reach);
+    std::size_t next = 0; // of near, which begins with points, in their order
+    for (std::uint32_t i = 0; i < n; ++i) {
+        if (next < near.size() && near[next] == i) {
+            const std::uint32_t body = model.points.body[i];
+            cells.visit_near(positions[next], [&](std::uint32_t c) {
+                if (model.points.body[model.families.parent(near[c])] != body &&
+                    (positions[c] - positions[next]).squaredNorm() <= reach * reach)
+                    candidates.neighbours.push_back(near[c]);
+            });
+            ++next;
+        }
+        candidates.first[i + 1] = candidates.neighbours.size();
+    }
+}
+
+template <class Neighbours, class Reach>
+void ContactForces::count_contacts(const Model& model, std::uint32_t point, const Neighbours& neighbours,
+                                   const Reach& reach)
+{
+    const Vector3 x = model.records[point].x();
+    contacts_of_[point] =
+        static_cast<std::uint32_t>(std::count_if(neighbours.begin(), neighbours.end(), [&](std::uint32_t c) {
+            const double distance = (x - model.records[c].x()).norm();
+            return distance < reach(model.families.parent(c)) && distance > 0.0;
+        }));
+}
+
+template <class Neighbours, class Reach>
+void ContactForces::gather_pairs(const Model& model, const Contact& law, std::uint32_t point,
+                                 const Neighbours& neighbours, const Reach& reach, double time_step,
+                                 std::vector<Vector3>& force)
+{
+    std::array<ContactPair, block> pairs;
+    std::array<ContactResponse, block> responses;
+    std::array<Vector3, block> normals;
+    std::array<Vector3, block> slips;
+    std::array<double, block> crowds; // contacts of the end that has more of them: each stops its share of the slip
+    const Points& points = model.points;
+    const Vector3 x = model.records[point].x();
+    const Vector3 v = model.records[point].v();
+    std::size_t count = 0;
+    const auto flush = [&] {
+        law.evaluate(std::span(pairs.data(), count), std::span(responses.data(), count));
+        for (std::size_t c = 0; c < count; ++c) {
+            force[point] += responses[c].force * normals[c];
+            // The partner, or its parent, counts the other half.
+            point_energy_[point] += 0.5 * responses[c].energy;
+            damping_[point] += responses[c].damping_force * normals[c];
+            const double speed = slips[c].norm();
+            if (speed <= 0.0 || time_step <= 0.0)
+                continue;
+            const double stops = reduced_mass(pairs[c]) * speed / (time_step * crowds[c]);
+            const double size = std::min(law.friction() * std::max(0.0, responses[c].force), stops);
+            const Vector3 friction = -(size / speed) * slips[c];
+            force[point] += friction;
+            friction_[point] += friction;
+        }
+        count = 0;
+    };
+    for (const std::uint32_t c : neighbours) {
+        const Vector3 apart = x - model.records[c].x();
+        const double distance = apart.norm();
+        const std::uint32_t p = model.families.parent(c);
+        const double touching = reach(p);
+        if (distance >= touching || distance <= 0.0)
+            continue;
+        overlap_[point] = std::max(overlap_[point], (touching - distance) / touching);
+        const Vector3 normal = apart / distance;
+        const Vector3 relative = v - model.records[c].v();
+        const double opening = relative.dot(normal);
+        pairs[count] = {distance + (law.cutoff() - touching),
+                        -approach_factor_ * opening,
+                        points.volume[point],
+                        points.volume[p],
+                        points.mass[point],
+                        points.mass[p]};
+        normals[count] = normal;
+        slips[count] = relative - opening * normal;
+        crowds[count] = std::max(contacts_of_[point], contacts_of_[p]);
+        if (++count == block)
+            flush();
+    }
+    flush();
+}
+
+void ContactForces::add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force)
+{
+    const Candidates& candidates = candidates_[assignment];
+    if (candidates.neighbours.empty())
+        return;
+    const Contact& law = *assignments_[assignment].law;
+    const auto n = static_cast<std::uint32_t>(model.size());
+    const auto row = [&candidates](std::uint32_t i) {
+        return std::span(candidates.neighbours.data() + candidates.first[i],
+                         candidates.first[i + 1] - candidates.first[i]);
+    };
+    const auto reach = [&law](std::uint32_t) { return law.cutoff(); };
+    contacts_of_.assign(n, 0);
+    overlap_.assign(n, 0.0);
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::uint32_t i = 0; i < n; ++i)
+        count_contacts(model, i, row(i), reach);
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::uint32_t i = 0; i < n; ++i)
+        if (contacts_of_[i] > 0)
+            gather_pairs(model, law, i, row(i), reach, time_step, force);
+    note_pair_overlaps(assignment);
+}
+
+void ContactForces::note_pair_overlaps(std::size_t assignment)
+{
+    for (const double overlap : overlap_)
+        note_overlap(assignment, overlap);
+}
+
+void ContactForces::update_grain_reach(const Model& model, const ContactAssignment& assignment)
+{
+    const double cutoff = assignment.law->cutoff();
+    grain_reach_.resize(model.size(), -std::numeric_limits<double>::infinity());
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        double& reach = grain_reach_[i];
+        const bool loose = model.free_grain[i] != 0;
+        if (model.points.body[i] != assignment.bodies[0] || (!loose && reach <= -cutoff))
+            continue;
+        double nearest = cutoff;
+        const FamilyView family = model.families[i];
+        for (const std::uint32_t c : std::span(family.neighbours, family.count))
+            if (loose || model.free_grain[model.families.parent(c)] != 0)
+                nearest = std::min(nearest, (model.records[c].x() - model.points.position[i]).norm());
+        const bool just_came_loose = loose && reach < 0.0;
+        const double size = just_came_loose ? nearest : std::max(std::abs(reach), nearest);
+        reach = loose ? size : -size;
+    }
+}
+
+void ContactForces::add_free_grains(const Model& model, std::size_t at, double time_step, std::vector<Vector3>& force)
+{
+    const ContactAssignment& assignment = assignments_[at];
+    update_grain_reach(model, assignment);
+    // Points that touch a free grain, or are one.
+    concerned_.assign(model.size(), 0);
+    bool some = false;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        if (model.free_grain[i] == 0 || model.points.body[i] != assignment.bodies[0])
+            continue;
+        some = true;
+        concerned_[i] = 1;
+        const FamilyView family = model.families[i];
+        for (std::size_t b = 0; b < family.count; ++b)
+            concerned_[model.families.parent(family.neighbours[b])] = 1;
+    }
+    if (!some)
+        return;
+    contacts_of_.assign(model.size(), 0);
+    overlap_.assign(model.size(), 0.0);
+    // Calls visit(point, partners, reach) for every point that may touch a free grain.
+    const auto for_each_concerned = [&](auto&& visit) {
+#pragma omp parallel
+        {
+            thread_local std::vector<std::uint32_t> partners; // only ever grows
+#pragma omp for schedule(dynamic, 64)
+            for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i) {
+                if (concerned_[i] == 0)
+                    continue;
+                partners.clear();
+                const FamilyView family = model.families[i];
+                for (std::size_t b = 0; b < family.count; ++b)
+                    if (model.free_grain[i] != 0 || model.free_grain[model.families.parent(family.neighbours[b])] != 0)
+                        partners.push_back(family.neighbours[b]);
+                visit(i, partners, [&, i](std::uint32_t other) {
+                    return std::min(std::abs(grain_reach_[i]), std::abs(grain_reach_[other]));
+                });
+            }
+        }
+    };
+    for_each_concerned(
+        [&](std::uint32_t i, const auto& partners, const auto& reach) { count_contacts(model, i, partners, reach); });
+    for_each_concerned([&](std::uint32_t i, const auto& partners, const auto& reach) {
+        if (contacts_of_[i] > 0)
+            gather_pairs(model, *assignment.law, i, partners, reach, time_step, force);
+    });
+    note_pair_overlaps(at);
+}
+
+} // namespace periporo

@@ -1,0 +1,235 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The smoothed surface of a body of points, and what a grain on it feels.
+#include "contact/contact_forces.hpp"
+#include "contact/short_range/short_range.hpp"
+#include "support/specimens.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+using namespace specimens;
+
+namespace {
+
+constexpr double dx = 0.01;
+constexpr int side = 18; // points of a substrate along x and y
+constexpr int layers = 4;
+
+/// A substrate whose upper face is z = 0, turned and shifted by `frame`, and one grain of another body.
+struct Ground {
+    explicit Ground(const Eigen::Isometry3d& frame = Eigen::Isometry3d::Identity(), double jitter = 0.0)
+        : frame(frame), model(from_positions(positions(frame, jitter), dx))
+    {
+        model.bodies.push_back(model.bodies.front());
+        model.points.body.back() = 1;
+        find();
+    }
+    static std::vector<Vector3> positions(const Eigen::Isometry3d& frame, double jitter)
+    {
+        std::vector<Vector3> result = jittered(lattice(side, side, layers, dx), dx, jitter);
+        for (Vector3& x : result)
+            x = frame * (x - dx * Vector3(side / 2.0, side / 2.0, layers));
+        result.push_back(frame * Vector3(0.0, 0.0, 10.0 * dx));
+        return result;
+    }
+    void find()
+    {
+        find_first_families(model,
+                            *make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon)));
+        model.update_records();
+    }
+    /// Puts the grain to a place in the frame of the ground.
+    void put(const Vector3& place)
+    {
+        model.points.position.back() = frame * place;
+        model.update_records();
+    }
+    std::uint32_t grain() const { return static_cast<std::uint32_t>(model.size() - 1); }
+
+    Eigen::Isometry3d frame;
+    Model model;
+};
+
+std::shared_ptr<const Contact> law(double friction)
+{
+    Parameters parameters;
+    parameters.set("stiffness", 500.0);
+    parameters.set("friction", friction);
+    parameters.set("restitution", 1.0);
+    auto made = std::make_shared<ShortRange>(parameters);
+    made->scale({dx, 3.015 * dx, ContactPartner::surface});
+    return made;
+}
+
+ContactForces on_surface(double friction)
+{
+    return ContactForces({{law(friction), {1, 0}, {}, 0}});
+}
+
+std::vector<Vector3> reactions(ContactForces& contact, const Model& model, double step = 1e-5)
+{
+    std::vector<Vector3> force(model.size(), Vector3::Zero());
+    contact.add_reactions(model, step, ContactForces::Approach::none, force);
+    return force;
+}
+
+Eigen::Isometry3d some_frame()
+{
+    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+    frame.rotate(Eigen::AngleAxisd(0.7, Vector3(1.0, -2.0, 0.5).normalized()));
+    frame.pretranslate(Vector3(0.3, -0.1, 0.2));
+    return frame;
+}
+
+} // namespace
+
+TEST_CASE("a lattice has a flat surface half a spacing outside its points, wherever it is turned")
+{
+    for (const Eigen::Isometry3d& frame : {Eigen::Isometry3d::Identity(), some_frame()}) {
+        Ground ground(frame);
+        SmoothedSurface surface;
+        std::mt19937 generator(3);
+        std::uniform_real_distribution<double> place(-2.0 * dx,
+                                                     2.0 * dx); // a horizon from the edges: normals are exact
+        for (int n = 0; n < 50; ++n) {
+            const Vector3 at(place(generator), place(generator), 0.2 * place(generator));
+            ground.put(at);
+            surface.find(ground.model, 0, 1, 0.5 * dx, 0.1 * dx);
+            REQUIRE(surface.near().size() == 1);
+            Support support;
+            REQUIRE(surface.find_support(ground.model, 0, support));
+            CHECK((support.normal - frame.rotation() * Vector3::UnitZ()).norm() < 1e-12);
+            CHECK(std::abs(support.distance - at.z()) < 1e-13);
+        }
+    }
+}
+
+TEST_CASE("the surface bears a grain above its last points, and not one a spacing beyond them")
+{
+    Ground ground;
+    SmoothedSurface surface;
+    const auto touches = [&](double x) {
+        ground.put({x, 0.0, 0.0});
+        surface.find(ground.model, 0, 1, 0.5 * dx, 0.1 * dx);
+        Support support;
+        return !surface.near().empty() && surface.find_support(ground.model, 0, support) && support.distance < 0.5 * dx;
+    };
+    CHECK(touches(0.5 * side * dx - 0.5 * dx));
+    CHECK_FALSE(touches(0.5 * side * dx + 0.5 * dx));
+}
+
+TEST_CASE("forces on an uneven surface have no resultant and no moment")
+{
+    Ground ground(some_frame(), 0.2);
+    ContactForces contact = on_surface(0.0);
+    for (const Vector3& place : {Vector3(0.1, 0.2, 0.0), Vector3(-1.3, 2.1, 0.3), Vector3(4.0, 0.4, 0.1)}) {
+        ground.put(dx * place);
+        contact.find_candidates(ground.model, 0.1 * dx);
+        const std::vector<Vector3> force = reactions(contact, ground.model);
+        Vector3 sum = Vector3::Zero(), moment = Vector3::Zero();
+        for (std::size_t i = 0; i < force.size(); ++i) {
+            sum += force[i];
+            moment += (ground.model.points.position[i] - ground.model.points.position.back()).cross(force[i]);
+        }
+        const double size = force[ground.grain()].norm();
+        REQUIRE(size > 0.0);
+        CHECK(sum.norm() < 1e-14 * size);
+        CHECK(moment.norm() < 1e-13 * size * dx);
+    }
+}
+
+TEST_CASE("a grain slides over the points of a flat surface without feeling them")
+{
+    Ground ground;
+    ContactForces contact = on_surface(0.0);
+    contact.find_candidates(ground.model, 0.1 * dx);
+    for (int n = 0; n < 20; ++n) {
+        ground.put({0.1 * n * dx, 0.03 * n * dx, 0.2 * dx});
+        contact.find_candidates(ground.model, 0.1 * dx);
+        const Vector3 force = reactions(contact, ground.model)[ground.grain()];
+        CHECK((force - Vector3(0.0, 0.0, 500.0 * 0.3 * dx)).norm() < 1e-12 * force.norm());
+        CHECK(contact.energy() == doctest::Approx(0.5 * 500.0 * std::pow(0.3 * dx, 2)).epsilon(1e-12).scale(0.0));
+    }
+    CHECK(contact.deepest_overlap()[0] == doctest::Approx(0.6).epsilon(1e-12).scale(0.0));
+}
+
+TEST_CASE("at a symmetry plane the half of a ground acts as the whole")
+{
+    Ground whole;
+    // the grain and its mirror image stand on the whole ground
+    const Vector3 place(0.3 * dx, 0.1 * dx, 0.2 * dx);
+    whole.model.points.resize(whole.model.size() + 1);
+    Points& points = whole.model.points;
+    const std::size_t last = points.size() - 1;
+    points.body[last] = 1;
+    points.mass[last] = points.mass[last - 1];
+    points.volume[last] = points.initial_volume[last] = points.volume[last - 1];
+    points.position[last - 1] = place;
+    points.position[last] = {-place.x(), place.y(), place.z()};
+    whole.model.allocate();
+    whole.find();
+    ContactForces on_whole = on_surface(0.0);
+    on_whole.find_candidates(whole.model, 0.1 * dx);
+    const std::vector<Vector3> expected = reactions(on_whole, whole.model);
+
+    std::vector<Vector3> kept;
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < last; ++i)
+        if (points.position[i].x() > 0.0) {
+            kept.push_back(points.position[i]);
+            numbers.push_back(i);
+        }
+    Model half = from_positions(kept, dx);
+    half.bodies.push_back(half.bodies.front());
+    half.points.body.back() = 1;
+    half.isometries.set_generators({Isometry::reflection(0, 0.0)});
+    find_first_families(half, *make_force_state("energy_conjugate", Influence::by_name("constant", half.horizon)));
+    half.update_records();
+    ContactForces on_half = on_surface(0.0);
+    on_half.find_candidates(half, 0.1 * dx);
+    const std::vector<Vector3> found = reactions(on_half, half);
+    const double size = found.back().norm();
+    REQUIRE(size > 0.0);
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        CHECK((found[i] - expected[numbers[i]]).norm() < 1e-13 * size);
+}
+
+TEST_CASE("friction stops a slow grain within a step, never throws it back, and is a pair of forces")
+{
+    Ground ground;
+    ground.put({0.2 * dx, 0.3 * dx, 0.2 * dx});
+    const double step = 1e-4;
+    const double mass = ground.model.points.mass[ground.grain()];
+    const double grip = 0.4 * 500.0 * 0.3 * dx; // mu F_n
+    for (const double part : {0.1, 10.0}) {     // of the speed that friction stops in a step
+        ground.model.points.velocity.back() = {part * grip * step / mass, 0.0, 0.0};
+        ground.model.update_records();
+        ContactForces contact = on_surface(0.4);
+        contact.find_candidates(ground.model, 0.1 * dx);
+        const std::vector<Vector3> force = reactions(contact, ground.model, step);
+        const double friction = -force[ground.grain()].x();
+        Vector3 sum = Vector3::Zero();
+        Vector3 surface_change = Vector3::Zero(); // of the velocity of the surface under the grain
+        SmoothedSurface surface;
+        surface.find(ground.model, 0, 1, 0.5 * dx, 0.1 * dx);
+        Support support;
+        REQUIRE(surface.find_support(ground.model, 0, support));
+        for (const Vector3& f : force)
+            sum += f;
+        for (std::size_t m = 0; m < support.records.size(); ++m)
+            surface_change += support.weights[m] * step / mass * force[support.records[m]];
+        CHECK(sum.norm() < 1e-14 * force[ground.grain()].norm());
+        const double before = ground.model.points.velocity.back().x();
+        const double after = before - step * friction / mass - surface_change.x();
+        if (part < 1.0) {
+            CHECK(after >= -1e-12 * before);
+            CHECK(after < 0.9 * before);
+        } else {
+            CHECK(friction == doctest::Approx(grip).epsilon(1e-12).scale(0.0));
+        }
+    }
+}
