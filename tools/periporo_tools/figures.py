@@ -41,18 +41,20 @@ def _frame_section(axes, reach: float, height: float) -> None:
     axes.set_ylim(-0.05 * height * MILLI, 1.08 * height * MILLI)
 
 
-def _initial_outline(results: Results, initial: Snapshot) -> tuple[float, float]:
-    """Half-width in the section and height of the undeformed column [m]."""
-    half = float(np.abs(initial.position[:, 0]).max()) + 0.5 * results.spacing
-    return half, float(initial.position[:, 2].max()) + 0.5 * results.spacing
+def _initial_outline(results: Results, initial: Snapshot) -> tuple[float, float, float]:
+    """Left and right end in the section, images at a symmetry plane x = 0 included, and height of the column [m]."""
+    x = initial.position[:, 0]
+    right = float(x.max()) + 0.5 * results.spacing
+    left = -right if "x" in results.symmetry else float(x.min()) - 0.5 * results.spacing
+    return left, right, float(initial.position[:, 2].max()) + 0.5 * results.spacing
 
 
 def deposit(results: Results, path: Path, colour_max: float | None, extent: float | None) -> Path:
     """Section and perspective of the last snapshot."""
     initial = measures.main_body(results.snapshot(results.release))
     final = measures.main_body(results.snapshot(-1))
-    half, height = _initial_outline(results, initial)
-    reach = extent or max(_reach(results, initial, final), half)
+    left, right, height = _initial_outline(results, initial)
+    reach = extent or max(_reach(results, initial, final), -left, right)
     field = final.colour
     highest = max(height, float(final.position[:, 2].max()))
     heights = [_AXES_WIDTH * 1.13 * highest / (2.12 * reach), 0.5 * _AXES_WIDTH]
@@ -61,7 +63,7 @@ def deposit(results: Results, path: Path, colour_max: float | None, extent: floa
     )
     scale = scale_of(field, colour_max) if field else scale_of(_plain(final), 1.0)
     views.section(top, final, results.spacing, results.symmetry, scale)
-    views.outline(top, half, height, label="before the collapse")
+    views.outline(top, left, right, height, label="before the collapse")
     _frame_section(top, reach, highest)
     top.set_xlabel("x [mm]")
     top.set_title(f"{_title(results)}\nt = {final.time:.3f} s, section y = 0")
@@ -236,8 +238,8 @@ def sequence(
         chosen = sequence_times(results, comparison["measured"]["rest_time"])
     snapshots = [measures.main_body(results.snapshot(index)) for index in chosen]
     initial = measures.main_body(results.snapshot(results.release))
-    half, height = _initial_outline(results, initial)
-    reach = extent or max(_reach(results, *snapshots), half)
+    left, right, height = _initial_outline(results, initial)
+    reach = extent or max(_reach(results, *snapshots), -left, right)
     row_height = _AXES_WIDTH * 1.13 * height / (2.12 * reach)
     figure, axes = plt.subplots(
         len(snapshots),
@@ -252,7 +254,7 @@ def sequence(
     scale = scale_of(field, colour_max) if field else scale_of(_plain(snapshots[-1]), 1.0)
     for axis, snapshot in zip(axes, snapshots):
         views.section(axis, snapshot, results.spacing, results.symmetry, scale)
-        views.outline(axis, half, height)
+        views.outline(axis, left, right, height)
         _frame_section(axis, reach, height)
         axis.text(0.99, 0.9, f"t = {max(snapshot.time, 0.0):.3f} s", transform=axis.transAxes, ha="right", va="top")
     axes[0].set_title(f"{_title(results)}: section y = 0")
@@ -278,7 +280,7 @@ def series(runs: list[Results], path: Path, colour_max: float | None) -> Path:
     initial = [measures.main_body(run.snapshot(run.release)) for run in runs]
     outlines = [_initial_outline(run, snapshot) for run, snapshot in zip(runs, initial)]
     reach = max(_reach(run, snapshot) for run, snapshot in zip(runs, final))
-    heights = [height for _, height in outlines]
+    heights = [height for *_, height in outlines]
     inches = _AXES_WIDTH / (2.12 * reach)
     figure, axes = plt.subplots(
         len(runs),
@@ -290,10 +292,10 @@ def series(runs: list[Results], path: Path, colour_max: float | None) -> Path:
     )
     axes = list(axes[:, 0])
     fields, colour_max = _common_colours(final, colour_max)
-    for axis, run, snapshot, (half, height) in zip(axes, runs, final, outlines):
+    for axis, run, snapshot, (left, right, height) in zip(axes, runs, final, outlines):
         scale = scale_of(snapshot.colour or _plain(snapshot), colour_max)
         views.section(axis, snapshot, run.spacing, run.symmetry, scale)
-        views.outline(axis, half, height)
+        views.outline(axis, left, right, height)
         _frame_section(axis, reach, height)
         axis.set_title(f"{_title(run)}, t = {snapshot.time:.3f} s", fontsize=10)
     axes[-1].set_xlabel("x [mm]")
@@ -308,7 +310,7 @@ def side_by_side(runs: list[Results], names: list[str], path: Path, colour_max: 
     initial = [measures.main_body(run.snapshot(run.release)) for run in runs]
     outlines = [_initial_outline(run, snapshot) for run, snapshot in zip(runs, initial)]
     reach = max(_reach(run, snapshot) for run, snapshot in zip(runs, final))
-    highest = max([float(snapshot.position[:, 2].max()) for snapshot in final] + [height for _, height in outlines])
+    highest = max([float(snapshot.position[:, 2].max()) for snapshot in final] + [height for *_, height in outlines])
     fields, colour_max = _common_colours(final, colour_max)
     width = 5.2
     section = width * 1.13 * highest / (2.12 * reach)
@@ -316,9 +318,9 @@ def side_by_side(runs: list[Results], names: list[str], path: Path, colour_max: 
         2, len(runs), figsize=(width * len(runs) + 1.6, section + 4.4), sharex="row", sharey="row", squeeze=False,
         gridspec_kw={"height_ratios": [section, 3.2], "hspace": 0.3, "wspace": 0.08},
     )
-    for run, name, snapshot, (half, height), top, bottom in zip(runs, names, final, outlines, *axes):
+    for run, name, snapshot, (left, right, height), top, bottom in zip(runs, names, final, outlines, *axes):
         views.section(top, snapshot, run.spacing, run.symmetry, scale_of(snapshot.colour or _plain(snapshot), colour_max))
-        views.outline(top, half, height)
+        views.outline(top, left, right, height)
         _frame_section(top, reach, highest)
         top.set_title(f"{name}\nt = {snapshot.time:.3f} s", fontsize=10)
         top.set_xlabel("x [mm]")

@@ -57,12 +57,11 @@ def section(axes: Axes, snapshot: Snapshot, spacing: float, symmetry: frozenset[
     axes.set_ylabel("z [mm]")
 
 
-def outline(axes: Axes, half_width: float, height: float, **options: object) -> None:
+def outline(axes: Axes, left: float, right: float, height: float, **options: object) -> None:
     """The undeformed column, dashed."""
-    half_width, height = half_width * MILLI, height * MILLI
     axes.plot(
-        [-half_width, -half_width, half_width, half_width],
-        [0.0, height, height, 0.0],
+        [MILLI * x for x in (left, left, right, right)],
+        [MILLI * z for z in (0.0, height, height, 0.0)],
         color=INK,
         linewidth=1.0,
         linestyle=(0, (4, 3)),
