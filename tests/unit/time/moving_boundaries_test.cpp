@@ -16,12 +16,12 @@ namespace {
 constexpr double dx = 0.01;
 constexpr double stiffness = 500.0; // [N/m]
 
-std::shared_ptr<const Contact> law(double friction)
+std::shared_ptr<const Contact> law(double friction, double restitution = 1.0)
 {
     Parameters parameters;
     parameters.set("stiffness", stiffness);
     parameters.set("friction", friction);
-    parameters.set("restitution", 1.0);
+    parameters.set("restitution", restitution);
     auto made = std::make_shared<ShortRange>(parameters);
     made->scale({dx, 3.015 * dx, ContactPartner::surface});
     return made;
@@ -127,6 +127,51 @@ TEST_CASE("a grain that falls from afar is caught by the floor, and bounces to w
     // Verlet at omega dt = 5e-3: of second order
     CHECK(highest == doctest::Approx(20.0 * dx).epsilon(1e-4).scale(0.0));
     CHECK(std::abs(meeting.dynamics.ledger().error()) < 1e-4 * meeting.mass() * 9.81 * 19.5 * dx);
+}
+
+TEST_CASE("a heap that is pushed down a slope stops on a rough one and slides on on a smooth one")
+{
+    const double slope = 0.35, v = 0.2, g = 9.81; // 20 degrees
+    const Vector3 normal(std::sin(slope), 0.0, std::cos(slope)), down(std::cos(slope), 0.0, -std::sin(slope));
+    const Vector3 across = normal.cross(down);
+    std::vector<Vector3> heap; // layers of 5 x 5, 3 x 3 and 1 points
+    for (int layer = 0; layer < 3; ++layer)
+        for (int i = layer - 2; i <= 2 - layer; ++i)
+            for (int j = layer - 2; j <= 2 - layer; ++j)
+                heap.push_back(dx * (i * down + j * across + (layer + 0.5) * normal));
+    const auto travel = [&](double friction, double time, double& speed) {
+        Model model = from_positions(heap, dx);
+        model.gravity = {0.0, 0.0, -g};
+        model.obstacles.push_back({"slope", std::make_shared<periporo::test::HalfSpace>(normal)});
+        const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+        find_first_families(model, *force);
+        ContactForces contact({{law(friction, 0.1), {0}, 0, {}}}); // with 1 it would hop on downhill
+        Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
+        set_velocity(model, [&](const Vector3&) { return Vector3(v * down); });
+        dynamics.start();
+        const double step = 2e-5;
+        for (long n = 0; n < std::lround(time / step); ++n)
+            dynamics.step({step, MaterialResponse::full, 0.0});
+        Vector3 moved = Vector3::Zero(), velocity = Vector3::Zero();
+        for (std::size_t i = 0; i < model.size(); ++i) {
+            moved += (model.points.position[i] - heap[i]) / static_cast<double>(model.size());
+            velocity += model.points.velocity[i] / static_cast<double>(model.size());
+        }
+        speed = velocity.dot(down);
+        return moved.dot(down);
+    };
+    double speed = 0.0;
+    const double smooth = travel(0.0, 0.1, speed);
+    // without friction nothing along the slope but gravity
+    CHECK(speed == doctest::Approx(v + 0.1 * g * std::sin(slope)).epsilon(1e-9).scale(0.0));
+    CHECK(smooth == doctest::Approx(0.1 * v + 0.005 * g * std::sin(slope)).epsilon(1e-3).scale(0.0));
+    const double braking = g * (0.7 * std::cos(slope) - std::sin(slope));
+    const double rough = travel(0.7, 1.5 * v / braking, speed);
+    // The reaction bounces about the weight, and friction with it, as the heap lands: a tenth of the way
+    CHECK(rough == doctest::Approx(0.5 * v * v / braking).epsilon(0.1).scale(0.0));
+    CHECK(std::abs(speed) < 0.01 * v);
+    const double later = travel(0.7, 2.5 * v / braking, speed);
+    CHECK(std::abs(later - rough) < 0.01 * rough);
 }
 
 TEST_CASE("what a contact holds is lost, and told, when its obstacle is taken away")
