@@ -52,8 +52,8 @@ MUTATIONS = {
     ),
     "shares_of_inactive_bonds_handed_on": Mutation(
         "operator/sub_horizon.cpp",
-        "total += select(lane_mask(family.lanes(p)), volume, zero);",
-        "total += weight;",
+        "total += select(lane_mask(family.lanes(p)), whole, zero);",
+        "total += select(active, whole, zero);",
         _IDENTITIES,
     ),
     "bond_force_left_in_the_moments": Mutation(

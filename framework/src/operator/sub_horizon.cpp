@@ -27,7 +27,7 @@ struct Workspace {
     AlignedVector<double> omega;         // 1
     AlignedVector<double> volume;        // 1: V of the neighbour, zero in lanes without a bond
     AlignedVector<double> inverse_shape; // 6
-    AlignedVector<double> weight;        // 1: V(H_b), zero where inactive
+    AlignedVector<double> weight;        // 1: what the share is in proportion to, zero where inactive
     AlignedVector<double> along;         // 3: f sigma_b zeta/max(|zeta|^2, l^2), f as in stress_moments()
     BondRows<kinematic_values, false> features, sums;
     BondRows<moment_values, true> moments, moment_sums;
@@ -103,13 +103,15 @@ FamilySums gather(const Model& model, std::size_t point, const FamilyView& famil
     return {self.volume + volume, volume > 0.0 ? reduce(weights) / volume : 0.0};
 }
 
-/// K_b^-1, V(H_b), activity and gradient of every bond; the gradient goes on to `stress`. Returns the sum of V(H_b)
-/// over all bonds, inactive ones too.
+/// K_b^-1, weight, activity and gradient of every bond; the gradient goes on to `stress`. Returns the sum of the
+/// weights over all bonds, inactive ones too.
+/// @param weighed whether a bond weighs omega V(H_b), and V(H_b) otherwise
 /// @param thickness least thickness squared [m2]
 /// @param lag see Evaluation::gradient_lag [s]
 /// @param least_squared l^2 [m2], none for gradients that are means over the sub-horizon
 double kinematics(const Model& model, std::size_t point, const FamilyView& family, const FamilySums& family_sums,
-                  double thickness, double lag, std::optional<double> least_squared, Workspace& w, BondStress& stress)
+                  bool weighed, double thickness, double lag, std::optional<double> least_squared, Workspace& w,
+                  BondStress& stress)
 {
     const double self_volume = model.records[point].volume;
     const Pack zero = 0.0;
@@ -130,9 +132,9 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
                         &inverse_shape.xz})
             *c = select(active, *c * scale, zero);
         store_symmetric(inverse_shape, w.inverse_shape.data() + p * 6 * pack_width);
-        const Pack weight = select(active, volume, zero);
-        store_pack(weight, w.weight.data() + p * pack_width);
-        total += select(lane_mask(family.lanes(p)), volume, zero);
+        const Pack whole = weighed ? volume * load_pack(&w.omega[p * pack_width]) : volume;
+        store_pack(select(active, whole, zero), w.weight.data() + p * pack_width);
+        total += select(lane_mask(family.lanes(p)), whole, zero);
         // L (1 - lag L)^-1 with L = M K^-1 is M (K - lag M)^-1
         const Tensor<Pack> moment{s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]};
         const Adjugate<Pack> behind = adjugate(full(shape) + moment * Pack(-lag));
@@ -149,9 +151,9 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
     return reduce(total);
 }
 
-/// f sigma_b K_b^-1 of every bond, as the moments of the workspace, where f is `moment_factor` times V(H_b); and what
-/// the model keeps of the point. Of what goes along the bond itself the moments keep nothing.
-/// @param share_factor the shares over V(H_b)
+/// f sigma_b K_b^-1 of every bond, as the moments of the workspace, where f is `moment_factor` times the weight; and
+/// what the model keeps of the point. Of what goes along the bond itself the moments keep nothing.
+/// @param share_factor the shares over the weights
 /// @param least_squared as in kinematics()
 void stress_moments(Model& model, std::size_t point, const FamilyView& family, const BondStress& stress,
                     double share_factor, double moment_factor, std::optional<double> least_squared, Workspace& w)
@@ -181,7 +183,8 @@ void stress_moments(Model& model, std::size_t point, const FamilyView& family, c
         store_pack(m.zz, w.moments.column.data() + p * pack_width);
     }
     model.stress_work[point] = model.points.volume[point] * reduce(work);
-    model.volume_rate[point] = active == 0 ? 0.0 : reduce(dilation) / reduce(carrying);
+    const double carried = reduce(carrying); // zero also where all active bonds are as long as the horizon
+    model.volume_rate[point] = carried > 0.0 ? reduce(dilation) / carried : 0.0;
     model.inactive_bonds[point] = static_cast<std::uint32_t>(family.count) - active;
     model.free_grain[point] = active == 0 ? 1 : 0;
 }
@@ -237,8 +240,8 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
                 sum_sub_horizons(model.sub_horizons[i], w.features, w.sums);
                 BondStress stress(model, i, family.neighbours, family.packs,
                                   model.bonds.state.data() + model.bonds.first[i], evaluation, w.stress);
-                const double total = kinematics(model, i, family, family_sums, thickness, evaluation.gradient_lag(),
-                                                least_squared, w, stress);
+                const double total = kinematics(model, i, family, family_sums, conjugate, thickness,
+                                                evaluation.gradient_lag(), least_squared, w, stress);
                 const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;
                 times.end_of(&OperatorSamples::kinematics);
                 if (const MaterialStatus status = stress.update(); !status.converged)
@@ -264,14 +267,22 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
 void SubHorizonForceState::shares(const Model& model, std::size_t point, std::span<double> shares) const
 {
     const FamilyView family = model.families[point];
+    const NeighbourRecord& self = model.records[point];
     thread_local AlignedVector<double> volume, sums;
     volume.resize(family.count);
     for (std::size_t b = 0; b < family.count; ++b)
         volume[b] = model.records[family.neighbours[b]].volume;
     sum_sub_horizons(model.sub_horizons[point], volume, sums);
+    std::ranges::fill(shares, 0.0);
     double total = 0.0;
-    for (std::size_t b = 0; b < shares.size(); ++b) {
-        total += shares[b] = model.bonds.is_active(family, b) ? sums[b] + model.records[point].volume : 0.0;
+    for (std::size_t b = 0; b < family.count; ++b) {
+        if (!model.bonds.is_active(family, b))
+            continue;
+        double squared = 0.0;
+        for (std::size_t c = 0; c < 3; ++c)
+            squared += std::pow(model.records[family.neighbours[b]].position[c] - self.position[c], 2);
+        const double omega = kind_ == Kind::volume_weighted ? 1.0 : influence()(squared);
+        total += shares[b] = omega * (sums[b] + self.volume);
     }
     if (total > 0.0)
         for (double& share : shares)

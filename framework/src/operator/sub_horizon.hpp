@@ -17,7 +17,7 @@ public:
     enum class Kind {
         /// The gradient agrees with the bond along itself, L_b' = L_b + (v_j - v_i - L_b zeta) (x) zeta/|zeta|^2, with
         /// |zeta| at least `shortest_bond` spacings in the denominator, and the forces are conjugate to the stress
-        /// power sum_i V_i sum_b w_b sigma_b : L_b' with w_b = V(H_b)/sum_b' V(H_b').
+        /// power sum_i V_i sum_b w_b sigma_b : L_b' with w_b = omega_b V(H_b)/sum_b' omega_b' V(H_b').
         energy_conjugate,
         /// The gradient is L_b: T_ik = omega_ik [sum_{b of i, k in H_b} w_b sigma_b K_b^-1] zeta_ik, conjugate to
         /// sum_i V_i sum_b w_b sigma_b : L_b. Points of soil that flows pair up with it.
