@@ -55,12 +55,17 @@ TEST_CASE("one and two threads end at the same bits, for every force state")
 
 TEST_CASE("a run stopped twice and resumed ends at the same bits as one that was never stopped")
 {
+    // the column is wet, and dries while it collapses
+    const std::string drying =
+        coarse + R"(--set 'body.column.water={ type = "uniform", suction = "1 kPa", saturation = 0.3 }' )" +
+        R"(--set 'stage.1.water=[{ body = "column", type = "uniform", suction = "2 kPa", saturation = 0.1, )" +
+        R"(over = "150 ms" }]' )";
     const ProgramFolder folder;
-    REQUIRE(folder.run(coarse + "--quiet --threads 1 --out whole").status == 0);
+    REQUIRE(folder.run(drying + "--quiet --threads 1 --out whole").status == 0);
     // SIGTERM as soon as the first history rows are on the disk, then SIGINT in the middle of the rest
     folder.write("stopped.sh", "set -u\n"
                                "'" PERIPORO_PROGRAM "' " +
-                                   coarse +
+                                   drying +
                                    " --quiet --threads 1 --out parts $2 &\n"
                                    "pid=$!\n"
                                    "while kill -0 $pid 2> /dev/null && [ \"$(cat parts/history.csv.part | wc -l)\" -lt "
@@ -75,7 +80,7 @@ TEST_CASE("a run stopped twice and resumed ends at the same bits as one that was
     CHECK(std::filesystem::exists(folder.path() / "parts/checkpoint.h5"));
     CHECK(content_of(folder.path() / "parts/results.h5").count("/snapshots/000000/position") == 1); // complete file
     REQUIRE(stopped("INT --resume 70") == 130);
-    REQUIRE(folder.run(coarse + "--quiet --threads 1 --out parts --resume").status == 0);
+    REQUIRE(folder.run(drying + "--quiet --threads 1 --out parts --resume").status == 0);
     CHECK(differences(results(folder.path() / "whole/results.h5"), results(folder.path() / "parts/results.h5")) ==
           std::set<std::string>{});
     CHECK(ProgramFolder::read(folder.path() / "whole/history.csv") ==

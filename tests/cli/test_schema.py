@@ -40,7 +40,7 @@ class Schema(unittest.TestCase):
         jsonschema.Draft4Validator.check_schema(self.validator.schema)
 
     def test_accepts_every_shipped_case(self):
-        cases = [f for f in _CASES.rglob("*.toml") if f.parent.name != "material"]
+        cases = [f for f in _CASES.rglob("*.toml") if f.parent.name != "material" and f.name != "sweeps.toml"]
         self.assertGreater(len(cases), 15)
         for file in cases:
             with self.subTest(case=file.name):

@@ -42,7 +42,29 @@ DiscretizationDescription discretization_of(const CheckedTable& table)
 
 MaterialDescription material_of(const CheckedTable& table)
 {
-    return {table.name, plugin_choice(table, "model"), table.own.real("grain_density"), table.own.real("porosity")};
+    std::optional<PluginChoice> retention;
+    for (const CheckedTable& curve : table.all("retention"))
+        retention = plugin_choice(curve, "curve");
+    return {table.name, plugin_choice(table, "model"), retention, table.own.real("grain_density"),
+            table.own.real("porosity")};
+}
+
+WaterDescription water_of(const CheckedTable& table)
+{
+    WaterDescription water;
+    water.type = table.own.text("type");
+    if (water.type == "dry")
+        return water;
+    water.saturation = optional_real(table.own, "saturation");
+    if (water.type == "uniform") {
+        water.suction = table.own.real("suction");
+    } else if (water.type == "hydrostatic") {
+        water.water_table = parse_plane(table.own.text("water_table"));
+        water.largest = optional_real(table.own, "largest_suction");
+    } else {
+        water.file = table.own.text("file");
+    }
+    return water;
 }
 
 InitialStressDescription initial_stress_of(const CheckedTable& table)
@@ -76,8 +98,7 @@ BodyDescription body_of(const CheckedTable& table)
     body.name = table.name;
     body.geometry = plugin_choice(table.one("geometry"), "generator");
     body.material = table.own.text("material");
-    body.suction = table.own.real("suction");
-    body.saturation = table.own.real("saturation");
+    body.water = water_of(table.one("water"));
     body.velocity = vector_of(table.own.real_list("velocity"));
     body.angular_velocity = vector_of(table.own.real_list("angular_velocity"));
     body.strain_rate = symmetric_matrix_of(table.own.real_list("strain_rate"));
@@ -160,6 +181,9 @@ StageDescription stage_of(const CheckedTable& table)
         stage.duration = table.own.real("duration");
         stage.rest_speed = optional_real(until, "rest_speed");
     }
+    for (const CheckedTable& water : table.all("water"))
+        stage.water_changes.push_back(
+            {water.own.text("body"), water_of(water), optional_real(water.own, "over").value_or(stage.duration)});
     return stage;
 }
 

@@ -6,6 +6,7 @@
 
 #include "case/scene_checks.hpp"
 #include "case/table_values.hpp"
+#include "case/water_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -34,21 +35,6 @@ void check_materials_of_bodies(const CheckedTable& root, Diagnostics& diagnostic
     for (const CheckedTable& material : root.all("material"))
         if (!used.contains(material.name))
             diagnostics.warning(material.place, fmt::format("no body is made of material '{}'", material.name));
-}
-
-void check_water(const CheckedTable& root, Diagnostics& diagnostics)
-{
-    for (const CheckedTable& body : root.all("body")) {
-        const auto* suction = value_of<double>(body, "suction");
-        const auto* saturation = value_of<double>(body, "saturation");
-        if (suction != nullptr && saturation != nullptr && *suction > 0.0 && *saturation == 0.0)
-            diagnostics.error(
-                body.place_of("suction"),
-                fmt::format("body '{}' has a suction but a degree of saturation of 0: without water there "
-                            "is no suction",
-                            body.name),
-                "give 'saturation' > 0, or leave both out for a dry body");
-    }
 }
 
 void check_stages(const CheckedTable& root, Diagnostics& diagnostics)

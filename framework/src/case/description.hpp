@@ -41,8 +41,29 @@ struct TimeDescription {
 struct MaterialDescription {
     std::string name;
     PluginChoice model;
-    double grain_density = 0.0; ///< rho_s [kg/m3]
-    double porosity = 0.0;      ///< phi0 [-]
+    std::optional<PluginChoice> retention; ///< curve of S_r over the suction
+    double grain_density = 0.0;            ///< rho_s [kg/m3]
+    double porosity = 0.0;                 ///< phi0 [-]
+};
+
+/// `PlaneDescription::axis` of a circular cylinder about the z axis, "r = 100 mm".
+inline constexpr int cylinder_axis = 3;
+
+/// A coordinate plane "x = 100 mm", or, as a roller, a cylinder "r = 100 mm".
+struct PlaneDescription {
+    int axis = 0;        ///< 0 x, 1 y, 2 z, or cylinder_axis
+    double offset = 0.0; ///< position or radius [m]
+};
+
+/// The water in the pores of a body. "Dry", S_r = 0 and s = 0, is a state of its own: the curve of a material gives
+/// S_r = 1 at s = 0.
+struct WaterDescription {
+    std::string type = "dry";         ///< or "uniform", "hydrostatic" or "field"
+    double suction = 0.0;             ///< uniform: s >= 0 [Pa]
+    PlaneDescription water_table;     ///< hydrostatic: where s = 0
+    std::optional<double> largest;    ///< hydrostatic: bound on s [Pa]
+    std::string file;                 ///< field: CSV of places and suctions
+    std::optional<double> saturation; ///< S_r, of a material without a curve [-]
 };
 
 struct InitialStressDescription {
@@ -71,21 +92,11 @@ struct BodyDescription {
     PluginChoice geometry;
     FillDescription fill;
     std::string material;
-    double suction = 0.0;                                  ///< s >= 0 [Pa]
-    double saturation = 0.0;                               ///< S_r [-]; 0 with s = 0 is "dry"
+    WaterDescription water;
     Vector3 velocity = Vector3::Zero();                    ///< of the centre of mass at the start [m/s]
     Vector3 angular_velocity = Vector3::Zero();            ///< about the centre of mass, at the start [rad/s]
     Eigen::Matrix3d strain_rate = Eigen::Matrix3d::Zero(); ///< about the centre of mass, at the start, symmetric [1/s]
     InitialStressDescription initial_stress;
-};
-
-/// `PlaneDescription::axis` of a circular cylinder about the z axis, "r = 100 mm".
-inline constexpr int cylinder_axis = 3;
-
-/// A coordinate plane "x = 100 mm", or, as a roller, a cylinder "r = 100 mm".
-struct PlaneDescription {
-    int axis = 0;        ///< 0 x, 1 y, 2 z, or cylinder_axis
-    double offset = 0.0; ///< position or radius [m]
 };
 
 /// What makes images of points.
@@ -123,6 +134,13 @@ struct ContactDescription {
     std::string surface;              ///< the body whose smoothed surface is touched, or empty
 };
 
+/// What the water of a body becomes during a stage.
+struct WaterChangeDescription {
+    std::string body;
+    WaterDescription water;
+    double over = 0.0; ///< time in which the suction changes, evenly; 0 at once [s]
+};
+
 struct StageDescription {
     std::string name;
     std::string type;                      ///< "quasi_static" or "dynamic"
@@ -134,6 +152,7 @@ struct StageDescription {
     std::string response = "elastic";      ///< quasi_static: "elastic" or "full"
     double duration = 0.0;                 ///< dynamic [s]
     std::optional<double> rest_speed;      ///< dynamic: ends early when sqrt(2 E_kin/m) falls below it [m/s]
+    std::vector<WaterChangeDescription> water_changes;
 };
 
 struct OutputDescription {

@@ -51,7 +51,7 @@ public:
         const std::size_t equals = text.find('=');
         const std::vector<std::string> keys = split_path(text.substr(0, std::min(equals, text.size())));
         if (equals == std::string::npos || std::find(keys.begin(), keys.end(), "") != keys.end())
-            return fail("an override is written KEY=VALUE", "for example --set body.column.suction=\"20 kPa\"");
+            return fail("an override is written KEY=VALUE", "for example --set contact.0.friction=0.3");
         if (keys.front() == "include")
             return fail("'include' cannot be overridden", "write a case that includes both files");
         const std::optional<CaseNode> value = read_value(trimmed(text.substr(equals + 1)));

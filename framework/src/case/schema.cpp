@@ -45,6 +45,14 @@ TableRules time_rules()
                  .optional()}};
 }
 
+TableRules retention_rules()
+{
+    TableRules rules{{Parameter::text("curve", "Retention plugin")}};
+    rules.selector = "curve";
+    rules.plugin = PluginKind::retention;
+    return rules;
+}
+
 TableRules material_rules()
 {
     TableRules rules{{Parameter::text("model", "Material plugin"),
@@ -52,6 +60,8 @@ TableRules material_rules()
                       Parameter::real("porosity", dimension::none, "Initial porosity phi0").at_least(0.0).below(1.0)}};
     rules.selector = "model";
     rules.plugin = PluginKind::material;
+    rules.nested = {{"retention", TableShape::single, TablePresence::optional,
+                     "Water retention curve: the degree of saturation that a suction means", retention_rules()}};
     return rules;
 }
 
@@ -102,15 +112,41 @@ TableRules initial_stress_rules()
     return rules;
 }
 
+/// The water of a body, or what it becomes: then `further` says of which body and how.
+TableRules water_rules(std::vector<Parameter> further = {})
+{
+    const Parameter saturation = Parameter::real("saturation", dimension::none,
+                                                 "Degree of saturation S_r, of a material without a retention curve")
+                                     .at_least(0.0)
+                                     .at_most(1.0)
+                                     .optional();
+    TableRules rules{{Parameter::text("type", "Where the suction comes from")
+                          .one_of({"dry", "uniform", "hydrostatic", "field"})
+                          .by_default("dry")}};
+    for (Parameter& parameter : further)
+        rules.parameters.push_back(std::move(parameter));
+    TableRules hydrostatic{{Parameter::text("water_table", "Plane of zero suction, \"z = -2 m\""),
+                            Parameter::real("largest_suction", dimension::pressure, "Suction that is nowhere exceeded")
+                                .above(0.0)
+                                .optional(),
+                            saturation}};
+    hydrostatic.planes = {"water_table"};
+    rules.selector = "type";
+    rules.variants = {
+        {"dry", {}},
+        {"uniform", {{Parameter::real("suction", dimension::pressure, "Suction s").at_least(0.0), saturation}}},
+        {"hydrostatic", hydrostatic},
+        {"field",
+         {{Parameter::file("file", "CSV with columns x, y, z [m] and suction [Pa]; a point takes the nearest row"),
+           saturation}}},
+    };
+    return rules;
+}
+
 TableRules body_rules()
 {
     TableRules rules{
         {Parameter::text("material", "Name of a [material.NAME]"),
-         Parameter::real("suction", dimension::pressure, "Suction s").at_least(0.0).by_default(0.0),
-         Parameter::real("saturation", dimension::none, "Degree of saturation S_r; 0 for a dry body")
-             .at_least(0.0)
-             .at_most(1.0)
-             .by_default(0.0),
          Parameter::real_list("velocity", dimension::velocity, 3, "Initial velocity").by_default({0.0, 0.0, 0.0}),
          Parameter::real_list("angular_velocity", dimension::angular_velocity, 3,
                               "Initial angular velocity about the centre of mass")
@@ -123,6 +159,7 @@ TableRules body_rules()
         {"geometry", TableShape::single, TablePresence::required, "The region that the body fills", geometry_rules()},
         {"initial_stress", TableShape::single, TablePresence::defaulted, "Effective stress at the start",
          initial_stress_rules()},
+        {"water", TableShape::single, TablePresence::defaulted, "Suction and saturation at the start", water_rules()},
         {"fill", TableShape::single, TablePresence::defaulted, "How points fill the region", fill_rules()}};
     return rules;
 }
@@ -246,6 +283,14 @@ TableRules stage_rules()
 {
     TableRules rules{{Parameter::text("name", "Name of the stage, used once"),
                       Parameter::text("type", "Kind of stage").one_of({"quasi_static", "dynamic"})}};
+    rules.nested = {
+        {"water", TableShape::list, TablePresence::optional, "What the water of a body becomes during the stage",
+         water_rules({Parameter::text("body", "The body"),
+                      Parameter::real("over", dimension::time,
+                                      "Time in which the suction changes, evenly; the duration of the stage when left "
+                                      "out, at once in a quasi-static one")
+                          .above(0.0)
+                          .optional()})}};
     rules.selector = "type";
     rules.variants = {{"quasi_static", quasi_static_rules()}, {"dynamic", dynamic_rules()}};
     return rules;

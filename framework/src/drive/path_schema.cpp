@@ -25,6 +25,7 @@ TableRules material_rules()
     for (Parameter& record : rules.parameters)
         if (record.name == "porosity" || record.name == "grain_density")
             record = std::move(record).optional();
+    rules.nested.clear(); // a path gives the saturation beside the suction
     return rules;
 }
 

@@ -88,6 +88,12 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     archive.put("surface_room", std::span<const double>(parts.contact.rooms()));
     archive.put("deepest_overlap", std::span<const double>(parts.contact.deepest_overlap()));
     archive.put("frequency_mode", flat(parts.frequency.mode()));
+    archive.put("suction", std::span<const double>(points.suction));
+    archive.put("saturation", std::span<const double>(points.saturation));
+    archive.put("suction_before", std::span<const double>(parts.water.suction_before));
+    archive.put("saturation_before", std::span<const double>(parts.water.saturation_before));
+    archive.put("suction_after", std::span<const double>(parts.water.suction_after));
+    archive.put("saturation_after", std::span<const double>(parts.water.saturation_after));
 
     const Dynamics::State& dynamics = parts.dynamics.state();
     const EnergyLedger& ledger = dynamics.ledger;
@@ -145,6 +151,10 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     copy_checked(vectors(archive.reals("refresh_position")), points.position, "position");
     copy_checked(archive.reals("volume"), points.volume, "volume");
     copy_checked(archive.reals("jacobian"), points.jacobian, "J");
+    copy_checked(archive.reals("suction"), points.suction, "suction");
+    copy_checked(archive.reals("saturation"), points.saturation, "saturation");
+    parts.water = {archive.reals("suction_before"), archive.reals("saturation_before"), archive.reals("suction_after"),
+                   archive.reals("saturation_after")};
     find_first_families(model, parts.force_state);
     const std::vector<Vector3> shifts = vectors(archive.reals("obstacle_shift"));
     for (std::size_t o = 0; o < model.obstacles.size(); ++o)

@@ -47,6 +47,7 @@ struct CheckpointParts {
     Dynamics& dynamics;
     FrequencyEstimate& frequency;
     RunPosition& position;
+    WaterCourse& water;
 };
 
 /// Writes `file` aside and renames it.

@@ -51,4 +51,9 @@ struct Points {
     }
 };
 
+/// Suction [Pa] and saturation [-] of each point before and after the changes of a stage.
+struct WaterCourse {
+    std::vector<double> suction_before, saturation_before, suction_after, saturation_after;
+};
+
 } // namespace periporo

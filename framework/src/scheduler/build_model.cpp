@@ -22,14 +22,6 @@
 namespace periporo {
 namespace {
 
-constexpr double water_density = 1000.0; // [kg/m3]
-
-const MaterialDescription& material_of(const CaseDescription& description, const BodyDescription& body)
-{
-    return *std::find_if(description.materials.begin(), description.materials.end(),
-                         [&](const MaterialDescription& m) { return m.name == body.material; });
-}
-
 /// True when the boundaries leave the position in the model.
 bool kept(const CaseDescription& description, const Vector3& x)
 {
@@ -86,7 +78,8 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
     const PointCloud cloud = fill_with_points(built, description, body, geometries, progress);
     const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
     Points& points = built.model.points;
-    const double density = mixture_density(description, body);
+    const MaterialDescription& material = material_of(description, body);
+    const std::size_t first = points.size();
     Vector3 centre = Vector3::Zero();
     for (std::size_t p = 0; p < cloud.positions.size(); ++p)
         centre += cloud.volumes[p] / filled * cloud.positions[p];
@@ -102,9 +95,6 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         const Vector3 from_centre = cloud.positions[p] - centre;
         points.velocity[i] = body.velocity + body.angular_velocity.cross(from_centre) + body.strain_rate * from_centre;
         points.volume[i] = points.initial_volume[i] = cloud.volumes[p];
-        points.mass[i] = density * cloud.volumes[p];
-        points.suction[i] = body.suction;
-        points.saturation[i] = body.saturation;
         points.body[i] = static_cast<std::uint32_t>(index);
         points.id[i] = static_cast<std::int64_t>(p);
     }
@@ -117,8 +107,11 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         built.remarks.push_back(fmt::format("body '{}': {} of {} points lie behind symmetry planes and are represented "
                                             "by images",
                                             body.name, cut, cloud.positions.size()));
-    built.model.bodies.push_back(
-        {body.name, make_material(description, body, registry), body.initial_stress.overconsolidation_ratio});
+    built.model.bodies.push_back({body.name, make_material(description, body, registry),
+                                  body.initial_stress.overconsolidation_ratio, material.porosity});
+    built.water.begin_body(built.model, index, first);
+    for (std::size_t i = first; i < points.size(); ++i)
+        points.mass[i] = mixture_density(material, points.saturation[i]) * points.volume[i];
 }
 
 void add_obstacles(BuiltModel& built, const CaseDescription& description, Geometries& geometries)
@@ -216,10 +209,14 @@ std::shared_ptr<const Material> make_material(const CaseDescription& description
     return registry.make_material(model.name, model.parameters);
 }
 
-double mixture_density(const CaseDescription& description, const BodyDescription& body)
+const MaterialDescription& material_of(const CaseDescription& description, const BodyDescription& body)
 {
-    const MaterialDescription& material = material_of(description, body);
-    return material.grain_density * (1.0 - material.porosity) + body.saturation * material.porosity * water_density;
+    return *std::ranges::find(description.materials, body.material, &MaterialDescription::name);
+}
+
+double mixture_density(const MaterialDescription& material, double saturation)
+{
+    return material.grain_density * (1.0 - material.porosity) + saturation * material.porosity * water_density;
 }
 
 BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry,
@@ -231,6 +228,7 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
     model.horizon = description.discretization.horizon_ratio * model.spacing;
     model.gravity = description.gravity;
     Geometries geometries(description, registry);
+    built.water = Water(description, registry);
     for (std::size_t b = 0; b < description.bodies.size(); ++b)
         add_body(built, description, b, registry, geometries, progress);
     add_obstacles(built, description, geometries);

@@ -9,6 +9,7 @@
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
 #include "plugins/registry.hpp"
+#include "scheduler/water.hpp"
 
 #include <functional>
 #include <memory>
@@ -21,11 +22,15 @@ namespace periporo {
 std::shared_ptr<const Material> make_material(const CaseDescription& description, const BodyDescription& body,
                                               const PluginRegistry& registry);
 
-/// rho_s (1 - phi) + S_r phi rho_w of a body [kg/m3].
-double mixture_density(const CaseDescription& description, const BodyDescription& body);
+/// The material of a body as the case describes it.
+const MaterialDescription& material_of(const CaseDescription& description, const BodyDescription& body);
+
+/// rho = rho_s (1 - phi0) + S_r phi0 rho_w [kg/m3].
+double mixture_density(const MaterialDescription& material, double saturation);
 
 struct BuiltModel {
     Model model;
+    Water water;
     std::vector<ContactAssignment> contacts;
     std::vector<std::vector<std::uint32_t>> held_regions; ///< points of each held region of the case
     std::vector<std::string> remarks; ///< what a user should know: points cut away, mass against exact, repairs

@@ -14,7 +14,8 @@ std::string dispersion_table(const CaseDescription& description, const PluginReg
 {
     const BodyDescription& body = description.bodies.front();
     const double spacing = description.discretization.spacing;
-    const LatticeMedium medium{make_material(description, body, registry), mixture_density(description, body), spacing,
+    const LatticeMedium medium{make_material(description, body, registry),
+                               mixture_density(material_of(description, body), 0.0), spacing,
                                description.discretization.horizon_ratio * spacing};
     std::string table = "force_state,influence,direction,wave,wave_number_times_spacing,relative_phase_speed\n";
     for (const std::string& state : force_state_names())

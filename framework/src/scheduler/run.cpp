@@ -9,8 +9,10 @@
 #include "scheduler/set_up_picture.hpp"
 #include "scheduler/simulation.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
+#include <limits>
 #include <omp.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -30,6 +32,21 @@ std::shared_ptr<spdlog::logger> make_log(const RunOptions& options)
     log->flush_on(spdlog::level::info);
     return log;
 }
+
+struct Extremes {
+    double least = std::numeric_limits<double>::infinity();
+    double largest = -std::numeric_limits<double>::infinity();
+
+    void add(double value)
+    {
+        least = std::min(least, value);
+        largest = std::max(largest, value);
+    }
+    std::string text() const
+    {
+        return least == largest ? fmt::format("{:.4g}", least) : fmt::format("{:.4g} to {:.4g}", least, largest);
+    }
+};
 
 } // namespace
 
@@ -70,17 +87,20 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     for (std::size_t b = 0; b < description.bodies.size(); ++b) {
         std::size_t count = 0;
         double mass = 0.0;
+        Extremes suction, saturation;
         for (std::size_t i = 0; i < model.size(); ++i)
             if (model.points.body[i] == b) {
                 ++count;
                 mass += model.points.mass[i];
+                suction.add(model.points.suction[i]);
+                saturation.add(model.points.saturation[i]);
             }
         const BodyDescription& body = description.bodies[b];
         text += fmt::format("  body '{}': {} of '{}', {} points, {:.4g} kg, {}\n", body.name, body.geometry.name,
                             body.material, count, mass,
-                            body.suction > 0.0
-                                ? fmt::format("suction {:.4g} Pa at saturation {:.3g}", body.suction, body.saturation)
-                                : "dry");
+                            body.water.type == "dry"
+                                ? "dry"
+                                : fmt::format("suction {} Pa at saturation {}", suction.text(), saturation.text()));
     }
     for (const ObstacleDescription& obstacle : description.obstacles)
         text += fmt::format("  obstacle '{}': {}\n", obstacle.name, obstacle.geometry.name);
@@ -107,6 +127,9 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
         const double steps = stage.duration / step;
         point_steps += steps * static_cast<double>(model.size());
         text += fmt::format("  stage '{}': {:.4g} s, {:.0f} steps\n", stage.name, stage.duration, steps);
+        for (const WaterChangeDescription& change : stage.water_changes)
+            text += fmt::format("    the water of '{}' becomes {} within {:.4g} s\n", change.body, change.water.type,
+                                change.over);
     }
     // One evaluation, timed, tells the speed on this machine. A step of soil in flow takes twice as long: the material,
     // families anew, the step estimate.

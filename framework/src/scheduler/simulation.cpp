@@ -55,6 +55,7 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
     progress_.clear();
     model_ = std::move(built.model);
     contact_ = ContactForces(std::move(built.contacts));
+    water_ = std::move(built.water);
     held_regions_ = std::move(built.held_regions);
     for (const std::string& remark : built.remarks)
         log_->info(remark);
@@ -115,9 +116,11 @@ void Simulation::restore()
                    options_.directory.string());
         return;
     }
-    read_checkpoint(file, {model_, *force_state_, contact_, dynamics_, frequency_, at_}, description_.resolved,
+    WaterCourse water;
+    read_checkpoint(file, {model_, *force_state_, contact_, dynamics_, frequency_, at_, water}, description_.resolved,
                     settings_of(description_).skin,
                     [this](std::uint64_t stage) { enter_stage(description_.stages.at(stage)); });
+    water_.restore(std::move(water), description_.stages[at_.stage]);
     dynamics_.hold(held_directions(model_, description_, held_regions_, description_.stages[at_.stage]));
     reports_ = nlohmann::json::parse(at_.stage_reports);
     resuming_ = true;
@@ -151,6 +154,8 @@ void Simulation::begin_stage()
         dynamics_.refresh();
     }
     dynamics_.hold(held_directions(model_, description_, held_regions_, stage));
+    water_.begin_stage(model_, stage);
+    water_.follow(model_, 0.0);
     renew_step(first_iterations);
     dynamics_.start();
     if (!is_quasi_static(stage) && !at_.ledger_open) {
@@ -232,6 +237,7 @@ void Simulation::take_step(const StepOptions& options)
         dynamics_.times().time(Phase::step_estimate, [&] { renew_step(later_iterations); });
     StepOptions with_step = options;
     with_step.time_step = at_.time_step;
+    water_.follow(model_, at_.time + at_.time_step - at_.stage_start);
     dynamics_.step(with_step);
     ++at_.stage_step;
     ++at_.step;
@@ -276,7 +282,7 @@ bool Simulation::dynamic(const StageDescription& stage)
         progress_.update([&] { return stage_line((at_.time - at_.stage_start) / stage.duration); });
         // What starts from rest comes to rest only after it has moved.
         at_.moved = at_.moved || (stage.rest_speed && dynamics_.mean_speed() > 2.0 * *stage.rest_speed);
-        if (at_.moved && dynamics_.mean_speed() < *stage.rest_speed)
+        if (at_.moved && water_.settled() && dynamics_.mean_speed() < *stage.rest_speed)
             break;
         if (stop_here())
             return false;
@@ -332,8 +338,9 @@ void Simulation::checkpoint()
     RunPosition position = at_;
     position.wall_seconds = wall_seconds();
     position.stage_reports = reports_.dump();
+    WaterCourse water = water_.course();
     write_checkpoint(options_.directory / "checkpoint.h5",
-                     {model_, *force_state_, contact_, dynamics_, frequency_, position}, description_.resolved);
+                     {model_, *force_state_, contact_, dynamics_, frequency_, position, water}, description_.resolved);
     last_checkpoint_ = std::chrono::steady_clock::now();
 }
 

@@ -12,6 +12,7 @@
 #include "scheduler/output_schedule.hpp"
 #include "scheduler/progress.hpp"
 #include "scheduler/run.hpp"
+#include "scheduler/water.hpp"
 #include "time/dynamics.hpp"
 #include "time/stable_step.hpp"
 
@@ -60,6 +61,7 @@ private:
     Model model_;
     std::unique_ptr<ForceState> force_state_;
     ContactForces contact_;
+    Water water_;
     std::vector<std::vector<std::uint32_t>> held_regions_; ///< see BuiltModel
     Dynamics dynamics_;
     FrequencyEstimate frequency_;

@@ -4,6 +4,7 @@
 #include "scheduler/snapshot_fields.hpp"
 
 #include "operator/refresh.hpp"
+#include "scheduler/water.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,11 @@ const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const 
     std::vector<double> density(n);
     for (std::size_t i = 0; i < n; ++i)
         density[i] = points.mass[i] / points.volume[i];
-    add_real("density", "kg/m3", "mass over current volume", 1, std::move(density));
+    add_real("density", "kg/m3", "mass over current volume, that of grains and water", 1, std::move(density));
+    std::vector<double> porosity(n);
+    for (std::size_t i = 0; i < n; ++i)
+        porosity[i] = porosity_of(model, i);
+    add_real("porosity", "-", "phi = 1 - (1 - phi0) V0/V", 1, std::move(porosity));
 
     std::vector<double> states = model.point_state;
     mean_point_states(model, force_state, states);

@@ -29,11 +29,14 @@ public:
     {
     }
 
-    /// This curve does not depend on the porosity.
+    /// S_r within 0..1 at a suction [Pa]; it must not rise with the suction.
     double saturation(double suction, double /*porosity*/) const override
     {
         return suction > air_entry_ ? std::pow(air_entry_ / suction, pore_size_index_) : 1.0;
     }
+
+    /// Leave this out when saturation() uses the porosity.
+    bool depends_on_porosity() const override { return false; }
 
 private:
     double air_entry_;       // [Pa]

@@ -44,3 +44,9 @@ TEST_CASE("saturation falls with suction and stays above zero")
         last = saturation;
     }
 }
+
+TEST_CASE("a curve that says so does not change with the porosity")
+{
+    REQUIRE_FALSE(curve().depends_on_porosity());
+    CHECK(curve().saturation(3.0 * air_entry, 0.1) == curve().saturation(3.0 * air_entry, 0.9));
+}

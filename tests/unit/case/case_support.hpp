@@ -98,7 +98,17 @@ public:
     void finish(bool) override {}
 };
 
-/// A registry that knows test_shell, test_union, test_scan, test_clay, test_wall and test_writer.
+class Curve : public Retention {
+public:
+    explicit Curve(const Parameters&) {}
+    static std::vector<Parameter> parameters()
+    {
+        return {Parameter::real("air_entry", dimension::pressure, "Suction at which air enters").above(0.0)};
+    }
+    double saturation(double, double) const override { return 0.5; }
+};
+
+/// A registry that knows test_shell, test_union, test_scan, test_clay, test_wall, test_curve and test_writer.
 inline PluginRegistry test_registry()
 {
     static const PluginDescriptor shell = describe_plugin<PluginKind::geometry, Shell>("test_shell", "A shell");
@@ -106,6 +116,7 @@ inline PluginRegistry test_registry()
     static const PluginDescriptor scan = describe_plugin<PluginKind::geometry, Scan>("test_scan", "A scan");
     static const PluginDescriptor clay = describe_plugin<PluginKind::material, Clay>("test_clay", "A clay");
     static const PluginDescriptor wall = describe_plugin<PluginKind::contact, Wall>("test_wall", "A wall");
+    static const PluginDescriptor curve = describe_plugin<PluginKind::retention, Curve>("test_curve", "A curve");
     static const PluginDescriptor writer = describe_plugin<PluginKind::output, Writer>("test_writer", "A writer");
     PluginRegistry registry;
     registry.add(shell, "/test/shell.so");
@@ -113,6 +124,7 @@ inline PluginRegistry test_registry()
     registry.add(scan, "/test/scan.so");
     registry.add(clay, "/test/clay.so");
     registry.add(wall, "/test/wall.so");
+    registry.add(curve, "/test/curve.so");
     registry.add(writer, "/test/writer.so");
     return registry;
 }
@@ -166,11 +178,11 @@ model = "test_clay"
 grain_density = 1.5
 porosity = 0
 stiffness = 1e5
+retention = { curve = "test_curve", air_entry = "3 kPa" }
 [body.heap]
 geometry = { generator = "test_shell", inner = "1 cm", outer = "2 cm", centre = [0, 0, "1 m"] }
 material = "soil"
-suction = "20 kPa"
-saturation = 0.3
+water = { type = "uniform", suction = "20 kPa", saturation = 0.3 }
 velocity = [0, "1 mm/s", 0]
 angular_velocity = [0, 0, "2 rad/s"]
 strain_rate = ["1 s^-1", "2 s^-1", "-3 s^-1", "4 s^-1", 0, "5 ms^-1"]
@@ -238,6 +250,11 @@ name = "collapse"
 type = "dynamic"
 duration = "0.5 s"
 until = { rest_speed = "5 mm/s" }
+[[stage.water]]
+body = "bubble"
+type = "uniform"
+suction = "5 kPa"
+over = "10 ms"
 [[output]]
 writer = "test_writer"
 every = "10 ms"

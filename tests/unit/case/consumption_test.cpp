@@ -34,10 +34,12 @@ void collect_consumed(const CheckedTable& table, const std::string& path, std::s
             collect_consumed(nested, path + name + ".", keys);
 }
 
-CheckedTable check_full_case()
+CheckedTable check_full_case(const std::string& water = "")
 {
     const TemporaryFolder folder;
-    write_file(folder / "case.toml", full_case);
+    write_file(folder / "suction.csv", "x, y, z, suction\n0, 0, 0, 1\n");
+    const std::string uniform = "water = { type = \"uniform\", suction = \"20 kPa\", saturation = 0.3 }";
+    write_file(folder / "case.toml", water.empty() ? full_case : with(full_case, uniform, water));
     Diagnostics diagnostics;
     const CaseNode root = read_toml_files(folder / "case.toml", diagnostics);
     CheckedTable checked = check_case(root, test_registry(), diagnostics);
@@ -54,11 +56,19 @@ TEST_CASE("building the description consumes exactly the keys that the framework
     collect_consumed(checked, "", before);
     CHECK(before.empty());
 
-    build_description(checked);
     std::set<std::string> declared;
     collect_declared(case_rules(), "", declared);
     std::set<std::string> consumed;
-    collect_consumed(checked, "", consumed);
+    for (const std::string water :
+         {"", "water = { type = \"hydrostatic\", water_table = \"z = 0\", largest_suction = 1, saturation = 0.3 }",
+          "water = { type = \"field\", file = \"suction.csv\", saturation = 0.3 }"}) {
+        const CheckedTable with_water = check_full_case(water);
+        build_description(with_water);
+        collect_consumed(with_water, "", consumed);
+    }
+    // read by the same routine as those of a body
+    for (const char* key : {"file", "largest_suction", "water_table"})
+        declared.erase(std::string("stage.water.") + key);
     CHECK(consumed == declared);
 }
 

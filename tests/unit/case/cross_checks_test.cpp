@@ -40,14 +40,6 @@ TEST_CASE("two stages of one name are an error at the second")
     CHECK(place_of(error_of(text)) == place_in(text, "'collapse'"));
 }
 
-TEST_CASE("suction without water is an error, water without suction is none")
-{
-    const std::string dry = with(full_case, "saturation = 0.3", "saturation = 0");
-    CHECK(place_of(error_of(dry)) == place_in(dry, "\"20 kPa\""));
-    CHECK(place_of(error_of(with(full_case, "saturation = 0.3\n", ""))) == place_in(full_case, "\"20 kPa\""));
-    CHECK(errors_of(with(full_case, "suction = \"20 kPa\"\n", "")).empty());
-}
-
 TEST_CASE("without gravity there is no geostatic stress, but a body may settle under its suction")
 {
     const std::string text = with(full_case, "[\"1 m/s2\", 0, \"-9.8 m/s2\"]", "[0, 0, 0]");

@@ -28,7 +28,7 @@ TEST_CASE("a minimal case gets the documented defaults")
     CHECK(read.warnings.empty());
     const BodyDescription body;
     CHECK(read.bodies.at(0).initial_stress.type == body.initial_stress.type);
-    CHECK(read.bodies.at(0).suction == body.suction);
+    CHECK(read.bodies.at(0).water.type == body.water.type);
     CHECK(read.bodies.at(0).velocity == body.velocity);
 }
 
@@ -110,8 +110,9 @@ TEST_CASE("a body knows geometry, material, water, velocity and initial stress")
     CHECK(body.geometry.parameters.real("inner") == 0.01);
     CHECK(body.geometry.parameters.real_list("centre") == std::vector<double>{0.0, 0.0, 1.0});
     CHECK(body.material == "soil");
-    CHECK(body.suction == 20e3);
-    CHECK(body.saturation == 0.3);
+    CHECK(body.water.type == "uniform");
+    CHECK(body.water.suction == 20e3);
+    CHECK(body.water.saturation == 0.3);
     CHECK(body.velocity == Vector3(0.0, 0.001, 0.0));
     CHECK(body.angular_velocity == Vector3(0.0, 0.0, 2.0));
     CHECK(body.strain_rate.row(0) == Eigen::RowVector3d(1.0, 4.0, 5000.0));

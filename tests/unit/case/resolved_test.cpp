@@ -41,8 +41,9 @@ void check_same(const CaseDescription& a, const CaseDescription& b)
         CHECK(a.bodies[i].name == b.bodies[i].name);
         check_same(a.bodies[i].geometry, b.bodies[i].geometry);
         CHECK(a.bodies[i].material == b.bodies[i].material);
-        CHECK(a.bodies[i].suction == b.bodies[i].suction);
-        CHECK(a.bodies[i].saturation == b.bodies[i].saturation);
+        CHECK(a.bodies[i].water.type == b.bodies[i].water.type);
+        CHECK(a.bodies[i].water.suction == b.bodies[i].water.suction);
+        CHECK(a.bodies[i].water.saturation == b.bodies[i].water.saturation);
         CHECK(a.bodies[i].velocity == b.bodies[i].velocity);
         CHECK(a.bodies[i].angular_velocity == b.bodies[i].angular_velocity);
         CHECK(a.bodies[i].strain_rate == b.bodies[i].strain_rate);

@@ -28,6 +28,13 @@ CaseDescription quickstart(const std::vector<std::string>& overrides = {})
                      {overrides, {PERIPORO_BUILD_DIR "/lib/periporo"}}, registry);
 }
 
+/// Overrides: a suction of 10 kPa at a saturation.
+std::vector<std::string> wet(const std::string& saturation)
+{
+    return {"body.column.water.type=uniform", "body.column.water.suction=10 kPa",
+            "body.column.water.saturation=" + saturation};
+}
+
 /// The quickstart with a text of its own, which overrides it.
 CaseDescription quickstart_with(const std::string& text)
 {
@@ -57,7 +64,7 @@ TEST_CASE("the quickstart is 10 x 10 x 12 points that weigh rho_s (1 - phi) time
 
 TEST_CASE("water in the pores counts in the mass: rho = rho_s (1 - phi) + S_r phi rho_w")
 {
-    const BuiltModel model = built(quickstart({"body.column.suction=10 kPa", "body.column.saturation=0.5"}));
+    const BuiltModel model = built(quickstart(wet("0.5")));
     const Points& points = model.model.points;
     CHECK(points.mass[0] / points.volume[0] == doctest::Approx(2200.0 * 0.8 + 0.5 * 0.2 * 1000.0).epsilon(1e-12));
 }
@@ -105,7 +112,7 @@ TEST_CASE("every point is in the model once, whatever the order along the curve"
 TEST_CASE("geostatic stress of a bond is that at the depth of its middle, with K0 across, minus the pore part")
 {
     const double suction = 10e3, saturation = 0.02, k0 = 0.53;
-    const CaseDescription description = quickstart({"body.column.suction=10 kPa", "body.column.saturation=0.02"});
+    const CaseDescription description = quickstart(wet("0.02"));
     BuiltModel made = built(description);
     Model& model = made.model;
     model.isometries.set_generators(image_generators(description, description.stages[0]));

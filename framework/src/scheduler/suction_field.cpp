@@ -1,0 +1,100 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+#include "scheduler/suction_field.hpp"
+
+#include "periporo/csv_table.hpp"
+#include "scheduler/water.hpp"
+
+#include <algorithm>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
+#include <cstddef>
+#include <fmt/format.h>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace periporo {
+namespace {
+
+class Uniform : public SuctionField {
+public:
+    explicit Uniform(double suction) : suction_(suction) {}
+
+    double at(const Vector3& /*place*/) const override { return suction_; }
+
+private:
+    double suction_;
+};
+
+class Hydrostatic : public SuctionField {
+public:
+    Hydrostatic(const WaterDescription& water, const Vector3& gravity)
+        : axis_(water.water_table.axis), level_(water.water_table.offset), slope_(-water_density * gravity[axis_]),
+          largest_(water.largest.value_or(std::numeric_limits<double>::infinity()))
+    {
+    }
+
+    double at(const Vector3& place) const override
+    {
+        return std::clamp(slope_ * (place[axis_] - level_), 0.0, largest_);
+    }
+
+private:
+    int axis_;
+    double level_;   // [m]
+    double slope_;   // [Pa/m]
+    double largest_; // [Pa]
+};
+
+class NearestRow : public SuctionField {
+public:
+    explicit NearestRow(const std::filesystem::path& file)
+    {
+        const CsvTable table = read_csv_table(file, {{"x", dimension::length},
+                                                     {"y", dimension::length},
+                                                     {"z", dimension::length},
+                                                     {"suction", dimension::pressure}});
+        suction_ = table.columns[3];
+        if (suction_.empty())
+            throw std::runtime_error(fmt::format("{}: it has no rows", file.string()));
+        std::vector<std::pair<Place, std::size_t>> places;
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            if (suction_[row] < 0.0)
+                throw std::runtime_error(
+                    fmt::format("{}: suction is {:g} Pa; it is at least 0", table.place(row), suction_[row]));
+            places.emplace_back(Place(table.columns[0][row], table.columns[1][row], table.columns[2][row]), row);
+        }
+        tree_ = Tree(places.begin(), places.end());
+    }
+
+    double at(const Vector3& place) const override
+    {
+        std::pair<Place, std::size_t> nearest;
+        tree_.query(boost::geometry::index::nearest(Place(place.x(), place.y(), place.z()), 1), &nearest);
+        return suction_[nearest.second];
+    }
+
+private:
+    using Place = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+    using Tree = boost::geometry::index::rtree<std::pair<Place, std::size_t>, boost::geometry::index::quadratic<16>>;
+
+    std::vector<double> suction_; // [Pa]
+    Tree tree_;
+};
+
+} // namespace
+
+std::unique_ptr<SuctionField> make_suction_field(const WaterDescription& water, const Vector3& gravity)
+{
+    if (water.type == "hydrostatic")
+        return std::make_unique<Hydrostatic>(water, gravity);
+    if (water.type == "field")
+        return std::make_unique<NearestRow>(water.file);
+    return std::make_unique<Uniform>(water.suction);
+}
+
+} // namespace periporo
