@@ -125,14 +125,15 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
         const Pack volume = s[15] + self_volume;
         SymmetricTensor<Pack> inverse_shape = adjugate(shape);
         const Pack mean = trace(shape) * (1.0 / 3.0);
-        const PackMask active =
-            det > singular_shape_quality * mean * mean * mean && det >= least * volume * trace(inverse_shape);
+        // A bond that has grown longer than the horizon since families were found has no weight.
+        const Pack whole = weighed ? volume * load_pack(&w.omega[p * pack_width]) : volume;
+        const PackMask active = det > singular_shape_quality * mean * mean * mean &&
+                                det >= least * volume * trace(inverse_shape) && whole > zero;
         const Pack scale = select(active, Pack(1.0) / det, zero);
         for (Pack* c : {&inverse_shape.xx, &inverse_shape.yy, &inverse_shape.zz, &inverse_shape.xy, &inverse_shape.yz,
                         &inverse_shape.xz})
             *c = select(active, *c * scale, zero);
         store_symmetric(inverse_shape, w.inverse_shape.data() + p * 6 * pack_width);
-        const Pack whole = weighed ? volume * load_pack(&w.omega[p * pack_width]) : volume;
         store_pack(select(active, whole, zero), w.weight.data() + p * pack_width);
         total += select(lane_mask(family.lanes(p)), whole, zero);
         // L (1 - lag L)^-1 with L = M K^-1 is M (K - lag M)^-1
@@ -183,8 +184,7 @@ void stress_moments(Model& model, std::size_t point, const FamilyView& family, c
         store_pack(m.zz, w.moments.column.data() + p * pack_width);
     }
     model.stress_work[point] = model.points.volume[point] * reduce(work);
-    const double carried = reduce(carrying); // zero also where all active bonds are as long as the horizon
-    model.volume_rate[point] = carried > 0.0 ? reduce(dilation) / carried : 0.0;
+    model.volume_rate[point] = active == 0 ? 0.0 : reduce(dilation) / reduce(carrying);
     model.inactive_bonds[point] = static_cast<std::uint32_t>(family.count) - active;
     model.free_grain[point] = active == 0 ? 1 : 0;
 }

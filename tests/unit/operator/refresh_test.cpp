@@ -234,3 +234,36 @@ TEST_CASE("a uniform expansion moves the variables of all points by its own amou
                   doctest::Approx(expected).epsilon(1e-9).scale(0.0));
     });
 }
+
+TEST_CASE("a point whose only sound bond outgrew the horizon is a free grain and keeps its variables")
+{
+    // Three neighbours too far from each other to share sub-horizons, and a fourth within reach of all, beyond
+    // which the bond to it is stretched before families are found anew.
+    const double delta = 3.015 * dx;
+    const std::vector<Vector3> positions{Vector3::Zero(), 0.9 * delta * Vector3::UnitX(),
+                                         0.9 * delta * Vector3::UnitY(), 0.9 * delta * Vector3::UnitZ(),
+                                         0.99 * delta * Vector3::Constant(1.0).normalized()};
+    for (const std::string state : {"energy_conjugate", "energy_conjugate_mean"}) {
+        CAPTURE(state);
+        const auto force = make_force_state(state, Influence::by_name("linear", delta));
+        Model model = from_positions(positions, dx);
+        model.bodies[0].material = std::make_shared<LawMaterial<HookeWithMemory>>(Parameters{});
+        model.allocate();
+        find_first_families(model, *force);
+        model.update_records();
+        force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
+        REQUIRE(model.free_grain[0] == 0);
+        REQUIRE(model.inactive_bonds[0] == 3);
+        for (std::size_t b = 0; b < model.families[0].count; ++b)
+            bond_value(model, 0, b, memory) = 0.25;
+        collect_point_variables(model, *force);
+        REQUIRE(model.point_state[memory] == 0.25);
+        model.points.position[4] *= 1.02;
+        model.update_records();
+        force->evaluate(model, {StressUpdate::advance, MaterialResponse::full, 1e-3});
+        CHECK(model.free_grain[0] == 1);
+        CHECK(model.volume_rate[0] == 0.0);
+        refresh_families(model, *force);
+        CHECK(model.point_state[memory] == 0.25);
+    }
+}
