@@ -15,7 +15,7 @@ from periporo_tools.style import BLUE, GREEN, INK, MILLI, ORANGE, PALE, PURPLE, 
 _AXES_WIDTH = 7.1  # of a figure 9.4 inches wide with a colour bar [inches]
 
 
-def _save(figure, path: Path) -> Path:
+def save(figure, path: Path) -> Path:
     aside = path.with_suffix(".png.part")
     figure.savefig(aside, format="png", facecolor="white", bbox_inches="tight")
     plt.close(figure)
@@ -72,7 +72,7 @@ def deposit(results: Results, path: Path, colour_max: float | None, extent: floa
     bottom.set_anchor("N")
     if field:
         colour_bar(figure, scale, field, [top, bottom], fraction=0.025, pad=0.02, aspect=45)
-    return _save(figure, path)
+    return save(figure, path)
 
 
 def _plain(snapshot: Snapshot) -> Field:
@@ -113,7 +113,7 @@ def profile(results: Results, comparison: dict, path: Path) -> Path:
     axes.set_ylabel("height [mm]")
     axes.set_title(_title(results))
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.16), ncol=2, borderaxespad=0.0)
-    return _save(figure, path)
+    return save(figure, path)
 
 
 def _draw_laws(axes, comparison: dict) -> float:
@@ -216,7 +216,7 @@ def history(results: Results, comparison: dict, path: Path) -> Path | None:
     bottom.set_xlabel("time since the release [s]")
     bottom.set_ylabel("distance [mm]")
     bottom.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
-    return _save(figure, path)
+    return save(figure, path)
 
 
 def sequence_times(results: Results, rest: float | None, count: int = 5) -> list[int]:
@@ -261,7 +261,7 @@ def sequence(
     axes[-1].set_xlabel("x [mm]")
     if field:
         colour_bar(figure, scale, field, axes, fraction=0.025, pad=0.02, aspect=40)
-    return _save(figure, path)
+    return save(figure, path)
 
 
 def _common_colours(snapshots: list[Snapshot], colour_max: float | None) -> tuple[list[Field], float | None]:
@@ -301,7 +301,7 @@ def series(runs: list[Results], path: Path, colour_max: float | None) -> Path:
     axes[-1].set_xlabel("x [mm]")
     if fields:
         colour_bar(figure, scale, fields[0], axes, fraction=0.025, pad=0.02, aspect=40)
-    return _save(figure, path)
+    return save(figure, path)
 
 
 def side_by_side(runs: list[Results], names: list[str], path: Path, colour_max: float | None) -> Path:
@@ -336,4 +336,4 @@ def side_by_side(runs: list[Results], names: list[str], path: Path, colour_max: 
             figure, scale_of(fields[0], colour_max), fields[0], list(axes[0]), fraction=0.025, pad=0.01, aspect=15
         )
         bar.set_label(f"{fields[0].name} [{fields[0].unit}]".replace(" plastic ", " plastic\n"), fontsize=8)
-    return _save(figure, path)
+    return save(figure, path)

@@ -154,6 +154,14 @@ class Results:
         )
         return snapshot if finite.all() else snapshot.select(finite)
 
+    def values(self, index: int, name: str) -> np.ndarray:
+        """A field of a snapshot, for the points that `snapshot(index)` returns, in its order."""
+        group = self._file["snapshots"][self._names[index]]
+        if name not in group:
+            raise ResultError(f"{self.folder / 'results.h5'}: its snapshots hold no field \"{name}\"")
+        finite = np.isfinite(np.asarray(group["position"], dtype=float)).all(axis=1)
+        return np.asarray(group[name], dtype=float)[finite]
+
     @property
     def history(self) -> dict[str, np.ndarray]:
         """Columns over time; empty when the run wrote none."""

@@ -185,7 +185,8 @@ def table(record: dict) -> str:
     return "\n".join("  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)).rstrip() for row in rows)
 
 
-def _markdown_law(record: dict, quantity: str) -> tuple[str, str, str]:
+def law_cells(record: dict, quantity: str) -> tuple[str, str, str]:
+    """Value, law and difference for a table; several laws stand in the order of laws.json."""
     rows = [row for row in record.get("laws", []) if row["quantity"] == quantity]
     if not rows or rows[0]["measured"] is None:
         return "-", "-", "-"
@@ -193,7 +194,8 @@ def _markdown_law(record: dict, quantity: str) -> tuple[str, str, str]:
     law, difference = [], []
     for row in rows:
         if row["law"] is None:
-            law.append("gap " + " .. ".join(f"{edge['value']:.2f}" for edge in row["gap_between"]))
+            edges = [f"{edge['value']:.2f}" for edge in row["gap_between"]]
+            law.append(f"gap {edges[0]} .. {edges[1]}" if len(edges) == 2 else "-")  # "-": it says nothing there
             difference.append("-")
         else:
             law.append(f"{row['law']:.2f}")
@@ -210,23 +212,35 @@ def markdown(records: list[dict]) -> str:
     lines = [head, "|" + "---|" * (head.count("|") - 1)]
     for record in records:
         measured = record["measured"]
-        scale = np.sqrt(record["height"] / _GRAVITY) if record.get("laws") else 0.0
-        motion_law = [row["law"] * scale for row in record.get("laws", []) if row["quantity"] == "end_of_motion"]
+        rest_law = law_of_rest(record)
         cells = [
             record["title"] + ("" if record["complete"] else " (not complete)"),
             f"{record['aspect_ratio']:g}" if "aspect_ratio" in record else "-",
             f"{record['points']:,}",
-            *_markdown_law(record, "run_out"),
+            *law_cells(record, "run_out"),
             f"{record['run_out_99']:.2f}" if "run_out_99" in record else "-",
-            *_markdown_law(record, "height"),
+            *law_cells(record, "height"),
             "-" if measured["rest_time"] is None else f"{measured['rest_time']:.2f}",
-            f"{motion_law[0]:.2f}" if motion_law else "-",
+            "-" if rest_law is None else f"{rest_law:.2f}",
             str(measured["escaped_points"]),
             "-"
             if measured["energy_error_largest"] is None
             else f"{100 * measured['energy_error_largest']:.2g} %",
         ]
         lines.append("| " + " | ".join(cells) + " |")
+    if sources := sources_line(records):
+        lines += ["", sources]
+    return "\n".join(lines)
+
+
+def law_of_rest(record: dict) -> float | None:
+    """When the law says that the column is at rest [s]; the first law where there are several."""
+    laws_of_rest = [row["law"] for row in record.get("laws", []) if row["quantity"] == "end_of_motion"]
+    return float(laws_of_rest[0] * np.sqrt(record["height"] / _GRAVITY)) if laws_of_rest else None
+
+
+def sources_line(records: list[dict]) -> str:
+    """Whose laws the numbers of `law_cells` are, in their order; empty without any."""
     sources = []
     for quantity, name in _NAMES.items():
         named = []
@@ -236,6 +250,4 @@ def markdown(records: list[dict]) -> str:
                     named.append(row["source"])
         if named:
             sources.append(f"{name}: {'; '.join(named)}")
-    if sources:
-        lines += ["", f"Laws, in this order: {', '.join(sources)}."]
-    return "\n".join(lines)
+    return f"Laws, in this order: {', '.join(sources)}." if sources else ""

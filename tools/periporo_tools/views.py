@@ -84,14 +84,19 @@ def perspective(
     scale: ScalarMappable,
     reach: float,
     width: int = 1400,
+    top: float | None = None,
 ) -> None:
-    """The whole body on a floor with a grid in mm; points farther out than `reach` [m] are left out."""
+    """The whole body on a floor with a grid in mm; points farther out than `reach` [m] are left out.
+
+    @param top what the view must hold above the floor [m], the highest point unless given: views of the same reach and
+    top are at one scale
+    """
     position, values = mirrored(snapshot.position, colour_values(snapshot), "".join(sorted(symmetry)))
     near = (np.abs(position[:, :2]) <= reach).all(axis=1)
     position, values = position[near], values[near]
     step = _grid_step(2.0 * reach * MILLI) / MILLI
     edge = step * np.ceil(reach / step)
-    top = float(position[:, 2].max(initial=0.0)) + spacing
+    top = float(position[:, 2].max(initial=0.0)) + spacing if top is None else top
     rim = 1.12 * edge  # room for the numbers
     camera = aimed_at(np.array([-rim, -rim, 0.0]), np.array([rim, rim, top]), width)
 
@@ -107,17 +112,19 @@ def perspective(
     for mark in marks:
         line((mark, -edge), (mark, edge), color=PALE, linewidth=0.5)
         line((-edge, mark), (edge, mark), color=PALE, linewidth=0.5)
-    every = 2 if len(marks) > 9 else 1
+    every = 2 if len(marks) > (9 if width >= 1400 else 5) else 1
     centre = len(marks) // 2
+    last = max(index for index in range(len(marks)) if (index - centre) % every == 0)
     for index, mark in enumerate(marks):
         if (index - centre) % every:
             continue
         for where, name in (((mark, -1.09 * edge), "x"), ((1.07 * edge, mark), "y")):
+            if name == "y" and index == 0:
+                continue  # the corner has its number from x
             column, row, _ = camera.project(np.array([*where, 0.0]))
             text = f"{name} = 0" if abs(mark) < 0.5 * step else f"{mark * MILLI:.0f}"
-            axes.text(column, row, text, ha="center", va="center", fontsize=8, color=INK)
-    column, row, _ = camera.project(np.array([1.0 * edge, edge * 1.1, 0.0]))
-    axes.text(column, row, "mm", ha="center", va="center", fontsize=8, color=INK)
+            unit = " mm" if name == "y" and index == last else ""
+            axes.text(column, row, text + unit, ha="center", va="center", fontsize=8, color=INK)
     axes.imshow(image, zorder=2, interpolation="bilinear")
     axes.set_xlim(0, camera.width)
     axes.set_ylim(camera.height, 0)
