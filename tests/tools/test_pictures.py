@@ -164,6 +164,24 @@ class UnusualResults(unittest.TestCase):
         self.assertEqual((colour.name, colour.unit), ("displacement", "mm"))
         np.testing.assert_allclose(colour.values, 5.0)  # (3, 0, 4) mm
 
+    def test_any_field_can_colour_the_pictures_a_vector_by_its_length_or_a_component(self):
+        synthetic.write_results(self.folder)
+        for field, unit, value in (("displacement", "m", 5e-3), ("displacement.z", "m", 4e-3), ("density", "kg/m3", 0.0)):
+            with self.subTest(field=field), Results(self.folder, field) as results:
+                colour = results.snapshot(-1).colour
+                self.assertEqual((colour.name, colour.unit), (field.replace(".", " "), unit))
+                np.testing.assert_allclose(colour.values, value or synthetic.DENSITY)
+        self.assertEqual(called(self.folder, "--field", "density")[0], 0)
+
+    def test_a_field_that_is_not_there_is_the_users_error_and_says_what_is(self):
+        synthetic.write_results(self.folder)
+        for field, part in (("satur", "there are body, density"), ("displacement.q", "displacement.x"),
+                            ("density.x", "has no components")):
+            with self.subTest(field=field):
+                status, _, error = called(self.folder, "--field", field)
+                self.assertEqual(status, 2)
+                self.assertIn(part, error)
+
     def test_an_incomplete_run_says_so(self):
         synthetic.write_results(self.folder)
         with h5py.File(self.folder / "results.h5", "r+") as file:

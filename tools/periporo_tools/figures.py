@@ -7,11 +7,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
 
 from periporo_tools import measures, views
 from periporo_tools.results import Field, ResultError, Results, Snapshot
 from periporo_tools.style import BLUE, GREEN, INK, MILLI, ORANGE, PALE, PURPLE, RED, SKY, colour_bar, plt, scale_of
 
+_NO_FIELD = Field("", "-", np.zeros(1))  # where the results hold nothing to colour by
 _AXES_WIDTH = 7.1  # of a figure 9.4 inches wide with a colour bar [inches]
 
 
@@ -61,7 +63,7 @@ def deposit(results: Results, path: Path, colour_max: float | None, extent: floa
     figure, (top, bottom) = plt.subplots(
         2, 1, figsize=(9.4, sum(heights) + 0.9), gridspec_kw={"height_ratios": heights, "hspace": 0.14}
     )
-    scale = scale_of(field, colour_max) if field else scale_of(_plain(final), 1.0)
+    scale = _scale(field, colour_max)
     views.section(top, final, results.spacing, results.symmetry, scale)
     views.outline(top, left, right, height, label="before the collapse")
     _frame_section(top, reach, highest)
@@ -73,11 +75,6 @@ def deposit(results: Results, path: Path, colour_max: float | None, extent: floa
     if field:
         colour_bar(figure, scale, field, [top, bottom], fraction=0.025, pad=0.02, aspect=45)
     return save(figure, path)
-
-
-def _plain(snapshot: Snapshot) -> Field:
-    """Stands in for a colour where the results hold none."""
-    return Field("", "-", np.zeros(len(snapshot.position)))
 
 
 def profile(results: Results, comparison: dict, path: Path) -> Path:
@@ -250,8 +247,8 @@ def sequence(
         gridspec_kw={"hspace": 0.2},
     )
     axes = list(axes[:, 0])
-    field = snapshots[-1].colour
-    scale = scale_of(field, colour_max) if field else scale_of(_plain(snapshots[-1]), 1.0)
+    field = _common_field(snapshots)
+    scale = _scale(field, colour_max)
     for axis, snapshot in zip(axes, snapshots):
         views.section(axis, snapshot, results.spacing, results.symmetry, scale)
         views.outline(axis, left, right, height)
@@ -264,14 +261,18 @@ def sequence(
     return save(figure, path)
 
 
-def _common_colours(snapshots: list[Snapshot], colour_max: float | None) -> tuple[list[Field], float | None]:
-    """The fields of the snapshots, one kind of field, and the upper end of the colours for all of them."""
+def _common_field(snapshots: list[Snapshot]) -> Field | None:
+    """What colours all of the snapshots, with the values of them all."""
     fields = [snapshot.colour for snapshot in snapshots if snapshot.colour]
     if len({field.name for field in fields}) > 1:
         raise ResultError("runs in one picture must hold the same field to colour by; these do not")
-    if fields and colour_max is None and fields[0].unit != "-":
-        colour_max = max(float(field.values.max()) for field in fields)
-    return fields, colour_max
+    if not fields:
+        return None
+    return Field(fields[0].name, fields[0].unit, np.concatenate([field.values for field in fields]))
+
+
+def _scale(field: Field | None, colour_max: float | None) -> ScalarMappable:
+    return scale_of(field, colour_max) if field else scale_of(_NO_FIELD, 1.0)
 
 
 def series(runs: list[Results], path: Path, colour_max: float | None) -> Path:
@@ -291,16 +292,16 @@ def series(runs: list[Results], path: Path, colour_max: float | None) -> Path:
         gridspec_kw={"height_ratios": heights, "hspace": 0.35},
     )
     axes = list(axes[:, 0])
-    fields, colour_max = _common_colours(final, colour_max)
+    field = _common_field(final)
+    scale = _scale(field, colour_max)
     for axis, run, snapshot, (left, right, height) in zip(axes, runs, final, outlines):
-        scale = scale_of(snapshot.colour or _plain(snapshot), colour_max)
         views.section(axis, snapshot, run.spacing, run.symmetry, scale)
         views.outline(axis, left, right, height)
         _frame_section(axis, reach, height)
         axis.set_title(f"{_title(run)}, t = {snapshot.time:.3f} s", fontsize=10)
     axes[-1].set_xlabel("x [mm]")
-    if fields:
-        colour_bar(figure, scale, fields[0], axes, fraction=0.025, pad=0.02, aspect=40)
+    if field:
+        colour_bar(figure, scale, field, axes, fraction=0.025, pad=0.02, aspect=40)
     return save(figure, path)
 
 
@@ -311,7 +312,8 @@ def side_by_side(runs: list[Results], names: list[str], path: Path, colour_max: 
     outlines = [_initial_outline(run, snapshot) for run, snapshot in zip(runs, initial)]
     reach = max(_reach(run, snapshot) for run, snapshot in zip(runs, final))
     highest = max([float(snapshot.position[:, 2].max()) for snapshot in final] + [height for *_, height in outlines])
-    fields, colour_max = _common_colours(final, colour_max)
+    field = _common_field(final)
+    scale = _scale(field, colour_max)
     width = 5.2
     section = width * 1.13 * highest / (2.12 * reach)
     figure, axes = plt.subplots(
@@ -319,7 +321,7 @@ def side_by_side(runs: list[Results], names: list[str], path: Path, colour_max: 
         gridspec_kw={"height_ratios": [section, 3.2], "hspace": 0.3, "wspace": 0.08},
     )
     for run, name, snapshot, (left, right, height), top, bottom in zip(runs, names, final, outlines, *axes):
-        views.section(top, snapshot, run.spacing, run.symmetry, scale_of(snapshot.colour or _plain(snapshot), colour_max))
+        views.section(top, snapshot, run.spacing, run.symmetry, scale)
         views.outline(top, left, right, height)
         _frame_section(top, reach, highest)
         top.set_title(f"{name}\nt = {snapshot.time:.3f} s", fontsize=10)
@@ -331,9 +333,7 @@ def side_by_side(runs: list[Results], names: list[str], path: Path, colour_max: 
     for panel in axes[:, 1:].flat:
         panel.set_ylabel("")
     axes[1, -1].legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
-    if fields:
-        bar = colour_bar(
-            figure, scale_of(fields[0], colour_max), fields[0], list(axes[0]), fraction=0.025, pad=0.01, aspect=15
-        )
-        bar.set_label(f"{fields[0].name} [{fields[0].unit}]".replace(" plastic ", " plastic\n"), fontsize=8)
+    if field:
+        bar = colour_bar(figure, scale, field, list(axes[0]), fraction=0.025, pad=0.01, aspect=15)
+        bar.set_label(f"{field.name} [{field.unit}]".replace(" plastic ", " plastic\n"), fontsize=8)
     return save(figure, path)

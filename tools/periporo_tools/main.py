@@ -15,6 +15,7 @@ from periporo_tools.results import Results, ResultError, write_comparison
 _EXAMPLES = """examples:
   tools/pictures results/quickstart
   tools/pictures results/paper_a1.2 --times 0.09 0.18 0.29
+  tools/pictures results/rain_slope --field saturation
   tools/pictures --table results/paper_a0.6 results/paper_a1.2 results/paper_a2.0
   tools/pictures --series results/paper_a0.6 results/paper_a1.2 results/paper_a2.0 --out series.png
   tools/pictures --side-by-side results/mine results/yours --out side_by_side.png
@@ -37,6 +38,9 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
                       help="draw the final sections of the runs beside each other, with their energies below")
     parser.add_argument("--out", type=Path, metavar="FILE",
                         help="picture of --series (series.png) or --side-by-side (side_by_side.png)")
+    parser.add_argument("--field", metavar="NAME",
+                        help="field of the results to colour by: saturation, suction, porosity, density, velocity,"
+                        " effective_stress.zz ... (plastic shear strain)")
     parser.add_argument("--colour-max", type=float, metavar="VALUE", help="upper end of the colours (2 for strain)")
     parser.add_argument("--extent", type=float, metavar="MM", help="half-width of the views, for one scale in a series")
     parser.add_argument("--times", type=float, nargs="+", metavar="S", help="times of sequence.png [s]")
@@ -44,7 +48,7 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
 
 
 def _draw(folder: Path, options: argparse.Namespace) -> None:
-    with Results(folder) as results:
+    with Results(folder, options.field) as results:
         comparison = verdict.compare(results)
         write_comparison(folder, comparison)
         extent = options.extent and options.extent * 1e-3
@@ -78,7 +82,7 @@ def main(arguments: list[str] | None = None) -> int:
             print(verdict.markdown(records))
         elif options.series or options.side_by_side:
             with ExitStack() as stack:
-                runs = [stack.enter_context(Results(folder)) for folder in options.folders]
+                runs = [stack.enter_context(Results(folder, options.field)) for folder in options.folders]
                 if options.series:
                     print(figures.series(runs, options.out or Path("series.png"), options.colour_max))
                 else:

@@ -13,6 +13,9 @@ import h5py
 import numpy as np
 
 
+STRAIN, DISPLACEMENT = "equivalent plastic shear strain", "displacement"  # what pictures are coloured by unless told
+
+
 class ResultError(Exception):
     """A result folder that cannot be used, in words for the user."""
 
@@ -69,8 +72,12 @@ class Results:
     @endcode
     """
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path, field: str | None = None):
+        """
+        @param field that colours the snapshots, "saturation", "velocity" (its length) or "effective_stress.zz"
+        """
         self.folder = folder
+        self._field = field
         path = folder / "results.h5"
         if not path.is_file():
             raise ResultError(f"{path}: there is no such file; has the case been run with the writer \"hdf5\"?")
@@ -149,10 +156,28 @@ class Results:
             position=position,
             mass=volume * density,
             body=body,
-            colour=_colour(group),
+            colour=_colour(group) if self._field is None else self._chosen(group, self._field),
             not_finite=int((~finite).sum()),
         )
         return snapshot if finite.all() else snapshot.select(finite)
+
+    def _chosen(self, group: h5py.Group, field: str) -> Field:
+        name, _, component = field.partition(".")
+        known = sorted(key for key in group if key != "position")
+        if name not in known:
+            raise ResultError(f"{self.folder / 'results.h5'}: there is no field \"{name}\"; there are {', '.join(known)}")
+        values = np.asarray(group[name], dtype=float).reshape(len(group["position"]), -1)
+        components = {1: ("",), 3: ("", "x", "y", "z"), 6: ("xx", "yy", "zz", "xy", "yz", "xz")}[values.shape[1]]
+        if component not in components:
+            raise ResultError(f"field \"{field}\": {name} has the components"
+                              f" {', '.join(f'{name}.{one}' for one in components if one)}"
+                              if len(components) > 1 else f"field \"{field}\": {name} has no components")
+        if not component:
+            values = values[:, 0] if values.shape[1] == 1 else np.linalg.norm(values, axis=1)
+        else:
+            values = values[:, [one for one in components if one].index(component)]
+        return Field(" ".join(filter(None, (name.replace("_", " "), component))), _text(group[name].attrs.get("unit")),
+                     values)
 
     def values(self, index: int, name: str) -> np.ndarray:
         """A field of a snapshot, for the points that `snapshot(index)` returns, in its order."""
@@ -177,12 +202,12 @@ def _text(value: object) -> str:
 
 def _colour(group: h5py.Group) -> Field | None:
     """Plastic shear strain where the material has it, otherwise how far the points have moved."""
-    name = "equivalent_plastic_shear_strain"
+    name = STRAIN.replace(" ", "_")
     if name in group:
-        return Field("equivalent plastic shear strain", "-", np.asarray(group[name], dtype=float).ravel())
+        return Field(STRAIN, "-", np.asarray(group[name], dtype=float).ravel())
     if "displacement" in group:
         moved = np.linalg.norm(np.asarray(group["displacement"], dtype=float), axis=1)
-        return Field("displacement", "mm", 1e3 * moved)
+        return Field(DISPLACEMENT, "mm", 1e3 * moved)
     return None
 
 

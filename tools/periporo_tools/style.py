@@ -13,7 +13,7 @@ import numpy as np  # noqa: E402
 from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
-from periporo_tools.results import Field  # noqa: E402
+from periporo_tools.results import DISPLACEMENT, STRAIN, Field  # noqa: E402
 
 COLOUR_MAP = "viridis"  # even in lightness, and read alike by all eyes
 # Okabe and Ito's colours, told apart by all eyes.
@@ -37,10 +37,15 @@ plt.rcParams.update(
 )
 
 
-def scale_of(field: Field, colour_max: float | None) -> ScalarMappable:
-    """The colours of a field. Plastic shear strain runs from 0 to 2 unless told, so that pictures can be compared."""
+def scale_of(field: Field, colour_max: float | None, colour_min: float | None = None) -> ScalarMappable:
+    """The colours of a field. Plastic shear strain runs from 0 to 2 and displacement from 0 unless told, so that pictures
+    can be compared; others from their least to their largest value."""
+    if field.name not in ("", STRAIN, DISPLACEMENT):
+        least = float(field.values.min()) if colour_min is None else colour_min
+        largest = float(field.values.max()) if colour_max is None else colour_max
+        return ScalarMappable(Normalize(least, max(largest, np.nextafter(least, np.inf))), COLOUR_MAP)
     if colour_max is None:
-        strain = field.unit == "-"
+        strain = field.name == STRAIN
         colour_max = 2.0 if strain else float(np.ceil(field.values.max(initial=1.0) / 10.0) * 10.0)
     return ScalarMappable(Normalize(0.0, colour_max), COLOUR_MAP)
 
