@@ -20,14 +20,15 @@ struct CsvColumn {
 };
 
 /// Numbers between commas below a header that names them, in any order: "suction [kPa], saturation". A column without a
-/// unit is in SI. What follows a # is a comment; further columns are passed over.
+/// unit is in SI. What follows a # is a comment.
 struct CsvTable {
     std::filesystem::path file;
     std::vector<std::vector<double>> columns; ///< in the order that was asked for, in SI
     std::vector<std::size_t> lines;           ///< of the file, for each row
+    std::vector<std::string> unused;          ///< headings of the columns that were passed over
 
     std::size_t rows() const { return lines.size(); }
-    /// "curve.csv, line 3", for messages.
+    /// "curve.csv: line 3", for messages.
     std::string place(std::size_t row) const;
 };
 

@@ -3,6 +3,7 @@
 //
 #include "periporo/csv_table.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ std::optional<double> number(std::string_view text)
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line, const std::string& reason)
 {
-    throw std::runtime_error(line > 0 ? fmt::format("{}, line {}: {}", file.string(), line, reason)
+    throw std::runtime_error(line > 0 ? fmt::format("{}: line {}: {}", file.string(), line, reason)
                                       : fmt::format("{}: {}", file.string(), reason));
 }
 
@@ -98,7 +99,7 @@ Place find_column(const std::filesystem::path& file, std::size_t line, const std
 
 std::string CsvTable::place(std::size_t row) const
 {
-    return fmt::format("{}, line {}", file.string(), lines.at(row));
+    return fmt::format("{}: line {}", file.string(), lines.at(row));
 }
 
 CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<CsvColumn>& columns)
@@ -106,7 +107,7 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<Csv
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
         refuse(file, 0, "cannot be read");
-    CsvTable table{file, std::vector<std::vector<double>>(columns.size()), {}};
+    CsvTable table{file, std::vector<std::vector<double>>(columns.size()), {}, {}};
     std::vector<Place> places;
     std::size_t width = 0; // of the table, 0 before the header
     std::string text;
@@ -123,6 +124,9 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<Csv
             try {
                 for (const CsvColumn& column : columns)
                     places.push_back(find_column(file, line, cells, column));
+                for (const std::string_view cell : cells)
+                    if (std::ranges::find(columns, heading(cell).first, &CsvColumn::name) == columns.end())
+                        table.unused.emplace_back(heading(cell).first);
             } catch (const std::invalid_argument& fault) { // an unknown unit
                 refuse(file, line, fault.what());
             }

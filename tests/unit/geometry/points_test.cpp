@@ -182,21 +182,21 @@ TEST_CASE("a spacing that differs from the cube root of the median volume by mor
 
 TEST_CASE("a header without a column, or with one twice, is an error that shows it")
 {
-    test::check_mentions(error_of_csv("x,y,volume\n0,0,1\n"), {"\"x,y,volume\" has 0 columns named z"});
-    test::check_mentions(error_of_csv("x,y,z,x,volume\n0,0,0,0,1\n"), {"2 columns named x"});
-    test::check_mentions(error_of_csv("0,0,0,1\n"), {"\"0,0,0,1\" has 0 columns named x"});
-    test::check_mentions(error_of_csv("\n \n"), {"no header", "x, y, z [m] and volume [m3]"});
+    test::check_mentions(error_of_csv("x,y,volume\n0,0,1\n"), {"line 1: the header names no column z [m]"});
+    test::check_mentions(error_of_csv("x,y,z,x,volume\n0,0,0,0,1\n"), {"line 1: two columns are named x"});
+    test::check_mentions(error_of_csv("0,0,0,1\n"), {"the header names no column x [m]"});
+    test::check_mentions(error_of_csv("\n \n"), {"no header"});
 }
 
 TEST_CASE("what is no number or no point in a CSV file is an error with its line")
 {
-    test::check_mentions(error_of_csv(three + "1,2,3\n"), {"line 5 has 3 cells, and the header 4"});
+    test::check_mentions(error_of_csv(three + "1,2,3\n"), {"line 5: 3 cells, and 4 in the header"});
     test::check_mentions(error_of_csv(three + "\n1,2,three,1\n"), {"line 6: z is \"three\""});
     test::check_mentions(error_of_csv(three + "1,2,,1\n"), {"line 5: z is \"\""});
     test::check_mentions(error_of_csv(three + "1,2,3 m,1\n"), {"line 5: z is \"3 m\""});
     test::check_mentions(error_of_csv(three + "1,2,1e999,1\n"), {"line 5: z is \"1e999\""});
-    test::check_mentions(error_of_csv(three + "1,nan,2,1\n"), {"line 5: the position (1, nan, 2) is not finite"});
-    test::check_mentions(error_of_csv(three + "1,2,3,inf\n"), {"line 5: the volume", "not inf"});
+    test::check_mentions(error_of_csv(three + "1,nan,2,1\n"), {"line 5: y is \"nan\"", "no finite number"});
+    test::check_mentions(error_of_csv(three + "1,2,3,inf\n"), {"line 5: volume is \"inf\""});
     test::check_mentions(error_of_csv(three + "1,2,3,0\n"), {"line 5: the volume must be positive", "not 0"});
     test::check_mentions(error_of_csv(three + "1,2,3,-1\n"), {"line 5: the volume", "not -1"});
     test::check_mentions(error_of_csv("x,y,z,volume\n"), {"no points"});

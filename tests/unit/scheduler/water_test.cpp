@@ -94,7 +94,7 @@ TEST_CASE("a field gives each point the suction of the nearest row, whatever the
     for (std::size_t i = 0; i < points.size(); ++i)
         CHECK(points.suction[i] == (points.position[i].z() < 0.5 ? 7e3 : 3e3));
     check_mentions(message_of_error([] { Block(curve, "water = { type = \"field\", file = \"below.csv\" }"); }),
-                   {"water of body 'block'", "below.csv, line 3", "at least 0"});
+                   {"water of body 'block'", "below.csv: line 3", "at least 0"});
 }
 
 TEST_CASE("suction goes evenly from one value to the other, the saturation along the curve")

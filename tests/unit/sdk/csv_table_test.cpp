@@ -38,7 +38,7 @@ TEST_CASE("columns are found by name, in any order, and come in SI")
     CHECK(table.columns[0] == std::vector<double>{1500.0, 2000.0});
     CHECK(table.columns[1] == std::vector<double>{0.9, 0.1});
     CHECK(table.lines == std::vector<std::size_t>{3, 5});
-    CHECK(contains(table.place(1), "table.csv, line 5"));
+    CHECK(contains(table.place(1), "table.csv: line 5"));
 }
 
 TEST_CASE("columns without a unit are in SI, and \"-\" is that of a pure number")
@@ -50,7 +50,7 @@ TEST_CASE("columns without a unit are in SI, and \"-\" is that of a pure number"
 
 TEST_CASE("a fault names the file, the line and the column")
 {
-    check_mentions(fault_of("suction\n1\n"), {"table.csv, line 1", "no column saturation [-]"});
+    check_mentions(fault_of("suction\n1\n"), {"table.csv: line 1", "no column saturation [-]"});
     check_mentions(fault_of("suction, suction, saturation\n"), {"line 1", "two columns are named suction"});
     check_mentions(fault_of("suction [m], saturation\n"), {"line 1", "suction is in m", "kPa"});
     check_mentions(fault_of("suction [kPaa], saturation\n"), {"line 1", "kPaa"});
@@ -60,4 +60,10 @@ TEST_CASE("a fault names the file, the line and the column")
     check_mentions(fault_of("# nothing\n\n"), {"table.csv", "no header"});
     check_mentions(message_of_error([] { read_csv_table("/nowhere/table.csv", wanted); }),
                    {"/nowhere/table.csv", "cannot be read"});
+}
+
+TEST_CASE("what was passed over is named")
+{
+    CHECK(read("note, suction, saturation, \"probe [m]\"\n1, 2, 0.5, 3\n").unused ==
+          std::vector<std::string>{"note", "probe"});
 }
