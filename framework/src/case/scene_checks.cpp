@@ -201,6 +201,9 @@ void check_scene(const CheckedTable& root, Diagnostics& diagnostics)
     for (const CheckedTable& contact : root.all("contact"))
         check_between(contact, names, diagnostics);
     check_regions(root, names, diagnostics);
+    for (const CheckedTable& stage : root.all("stage"))
+        for (const CheckedTable& water : stage.all("water"))
+            check_name(water, "body", names.bodies, body_word, diagnostics);
 }
 
 } // namespace periporo

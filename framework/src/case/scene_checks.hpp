@@ -9,7 +9,8 @@
 
 namespace periporo {
 
-/// Contacts between bodies and obstacles, regions of points, obstacles' stages, and geometries made of others.
+/// Contacts between bodies and obstacles, regions of points, obstacles' stages, bodies whose water changes, and
+/// geometries made of others.
 void check_scene(const CheckedTable& root, Diagnostics& diagnostics);
 
 } // namespace periporo

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace periporo {
@@ -72,7 +71,6 @@ void check_one(const CheckedTable& root, const CheckedTable& water, const Checke
 
 void check_changes(const CheckedTable& root, const CheckedTable& stage, Diagnostics& diagnostics)
 {
-    const std::vector<std::string> bodies = names_of(root.all("body"));
     const auto* stage_type = value_of<std::string>(stage, "type");
     std::set<std::string> seen;
     for (const CheckedTable& water : stage.all("water")) {
@@ -82,10 +80,7 @@ void check_changes(const CheckedTable& root, const CheckedTable& stage, Diagnost
         const auto* name = value_of<std::string>(water, "body");
         if (name == nullptr)
             continue;
-        if (!contains(bodies, *name))
-            diagnostics.error(water.place_of("body"), fmt::format("there is no body '{}'", *name),
-                              naming_hint(*name, bodies, "bodies of the case"));
-        else if (!seen.insert(*name).second)
+        if (!seen.insert(*name).second)
             diagnostics.error(water.place_of("body"),
                               fmt::format("the water of body '{}' changes twice in one stage", *name));
         check_one(root, water, named(root.all("body"), *name), diagnostics);
