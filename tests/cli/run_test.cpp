@@ -6,6 +6,9 @@
 #include "unit/output/result_content.hpp"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
 
 using namespace periporo::test;
 
@@ -113,4 +116,22 @@ TEST_CASE("a run that goes wrong says where and leaves a readable result")
     }
     CHECK(content_of(folder.path() / "bad/results.h5").count("/snapshots/000000/position") == 1);
     CHECK(ProgramFolder::read(folder.path() / "bad/summary.json").find("\"failed\"") != std::string::npos);
+}
+
+TEST_CASE("a column that stands ends its stage when it could have fallen over its height, one that falls when it rests")
+{
+    const ProgramFolder folder;
+    const std::string longer = coarse + "--set 'stage.1.duration=2 s' --quiet ";
+    // 0.12 m of a soil whose elasticity has no end
+    const std::string elastic = R"(--set 'material.soil={ model = "linear_elastic", grain_density = "2200 kg/m3", )"
+                                R"(porosity = 0.2, bulk_modulus = "25 MPa", shear_modulus = "15 MPa" }' )";
+    REQUIRE(folder.run(longer + elastic + "--out stands").status == 0);
+    REQUIRE(folder.run(longer + "--out falls").status == 0);
+    const auto end = [&](const std::string& run) {
+        const auto summary = nlohmann::json::parse(ProgramFolder::read(folder.path() / run / "summary.json"));
+        return summary["stages"][1]["end_time"].get<double>();
+    };
+    CHECK(end("stands") == doctest::Approx(std::sqrt(2.0 * 0.1 / 9.81)).epsilon(2e-3).scale(0.0)); // between points
+    CHECK(end("falls") > 0.25);
+    CHECK(end("falls") < 1.9);
 }

@@ -17,12 +17,21 @@ constexpr std::size_t block = 128;
 constexpr double bearing_overlap = 0.1; ///< overlap over reach up to which a point counts as resting on a surface
 /// How far points and obstacles move until points near rigid surfaces are sought anew, in spacings.
 constexpr double surface_skin = 0.5;
-/// Partners of a point in the estimate of the largest frequency: six points, each moving against it; or, on a smoothed
-/// surface, as many as share one of its points, with it.
+/// Partners of a point in the estimate of the largest frequency: six points, each moving against it.
 constexpr double partners_in_contact = 12.0;
-constexpr double partners_on_surface = 4.0;
 
 } // namespace
+
+void ContactBound::raise(const Contact& law, const ContactPair& pair, double mobility)
+{
+    constexpr double slow = 1e-6; // [m/s]: the slope of the dashpot, however the law writes it
+    std::array<ContactPair, 2> pairs{pair, pair};
+    pairs[1].approach_speed = slow;
+    std::array<ContactResponse, 2> responses;
+    law.evaluate(pairs, responses);
+    frequency_squared = std::max(frequency_squared, mobility * responses[0].stiffness);
+    damping_rate = std::max(damping_rate, mobility * (responses[1].force - responses[0].force) / slow);
+}
 
 void ContactForces::find_candidates(const Model& model, double slack)
 {
@@ -233,25 +242,23 @@ void ContactForces::add_surface_friction(const Model& model, double time_step, s
     }
 }
 
-ContactBound ContactForces::bound(const Model& model) const
+ContactBound ContactForces::bound(const Model& model)
 {
-    constexpr double slow = 1e-6; // [m/s]: the slope of the dashpot, however the law writes it
     ContactBound largest;
-    for (const ContactAssignment& assignment : assignments_) {
+    for (std::size_t a = 0; a < assignments_.size(); ++a) {
+        const ContactAssignment& assignment = assignments_[a];
+        if (assignment.surface_body) {
+            bound_supported(model, a, largest);
+            continue;
+        }
         const bool rigid = at_rigid_surface(assignment);
-        const double partners = rigid ? 1.0 : assignment.surface_body ? partners_on_surface : partners_in_contact;
+        const double partners = rigid ? 1.0 : partners_in_contact;
         for (std::size_t i = 0; i < model.size(); ++i) {
             if (!names(assignment, model.points.body[i]))
                 continue;
             const double v = model.points.volume[i];
             const double m = model.points.mass[i];
-            const ContactPair pairs[2] = {{0.0, 0.0, v, rigid ? 0.0 : v, m, rigid ? 0.0 : m},
-                                          {0.0, slow, v, rigid ? 0.0 : v, m, rigid ? 0.0 : m}};
-            ContactResponse responses[2];
-            assignment.law->evaluate(pairs, responses);
-            largest.frequency_squared = std::max(largest.frequency_squared, partners * responses[0].stiffness / m);
-            largest.damping_rate =
-                std::max(largest.damping_rate, partners * (responses[1].force - responses[0].force) / (slow * m));
+            largest.raise(*assignment.law, {0.0, 0.0, v, rigid ? 0.0 : v, m, rigid ? 0.0 : m}, partners / m);
         }
     }
     return largest;

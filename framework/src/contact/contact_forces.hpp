@@ -38,6 +38,11 @@ struct ObstaclePower {
 struct ContactBound {
     double frequency_squared = 0.0; ///< k/m, the largest [1/s2]
     double damping_rate = 0.0;      ///< c/m of the dashpots, the largest [1/s]
+
+    /// Includes a law at full overlap.
+    /// @param pair masses and volumes; not approaching
+    /// @param mobility acceleration that changes an overlap, for 1 N in all contacts at once [1/kg]
+    void raise(const Contact& law, const ContactPair& pair, double mobility);
 };
 
 /// Finds contacts and adds their forces. Each point sums its own contacts, both directions of a pair are evaluated with
@@ -97,8 +102,9 @@ public:
     const std::vector<double>& grain_reach() const { return grain_reach_; }
     void set_grain_reach(std::vector<double> reach) { grain_reach_ = std::move(reach); }
 
-    /// For the stable step: every law at full overlap, those between points with six partners.
-    ContactBound bound(const Model& model) const;
+    /// For the stable step: every law at full overlap, those between points with six partners, those on a smoothed
+    /// surface with as many as share its points at the present positions. Records must be current.
+    ContactBound bound(const Model& model);
 
 private:
     struct SurfaceContact {
@@ -114,12 +120,20 @@ private:
         std::uint32_t point;
         Support support;
     };
+    /// What a smoothed surface is to a point that stands on it.
+    struct Carrier {
+        double volume = 0.0;   ///< [m3]
+        double mobility = 0.0; ///< 1/mass, when all points that stand on it are pushed alike [1/kg]
+    };
+    Carrier carrier(const Model& model, const Support& support) const;
 
     void find_pairs(const Model& model, std::size_t assignment, double slack);
     void find_near_surfaces(const Model& model);
     void add_surface(const Model& model, std::size_t assignment, std::vector<Vector3>& force);
     void add_smoothed(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
-    void find_supported_points(const Model& model, std::size_t assignment);
+    /// @param reach above the surface within which points count as standing on it [m]
+    void find_supported_points(const Model& model, std::size_t assignment, double reach);
+    void bound_supported(const Model& model, std::size_t assignment, ContactBound& largest);
     void press(const Model& model, std::size_t assignment, const SupportedPoint& supported, double time_step,
                std::vector<Vector3>& force);
     void note_overlap(std::size_t assignment, double overlap);

@@ -10,6 +10,10 @@
 namespace periporo {
 namespace {
 
+/// Distance up to which a point counts in the estimate of the largest frequency, over the reach of the law: it may
+/// touch before the next estimate.
+constexpr double about_to_touch = 1.5;
+
 /// A force on a point or on an image, as a force on the point that it stands for.
 void give(const Model& model, std::uint32_t record, const Vector3& force, std::vector<Vector3>& forces)
 {
@@ -19,10 +23,9 @@ void give(const Model& model, std::uint32_t record, const Vector3& force, std::v
 
 } // namespace
 
-void ContactForces::find_supported_points(const Model& model, std::size_t assignment)
+void ContactForces::find_supported_points(const Model& model, std::size_t assignment, double reach)
 {
     const SmoothedSurface& surface = smoothed_[assignment];
-    const double reach = assignments_[assignment].law->cutoff();
     supported_count_ = 0;
     shared_weight_.assign(model.size(), 0.0);
     for (std::size_t n = 0; n < surface.near().size(); ++n) {
@@ -39,6 +42,17 @@ void ContactForces::find_supported_points(const Model& model, std::size_t assign
     }
 }
 
+ContactForces::Carrier ContactForces::carrier(const Model& model, const Support& support) const
+{
+    Carrier carrier;
+    for (std::size_t m = 0; m < support.records.size(); ++m) {
+        const std::uint32_t p = model.families.parent(support.records[m]);
+        carrier.volume += support.weights[m] * model.points.volume[p];
+        carrier.mobility += std::abs(support.weights[m]) * shared_weight_[p] / model.points.mass[p];
+    }
+    return carrier;
+}
+
 void ContactForces::press(const Model& model, std::size_t assignment, const SupportedPoint& supported, double time_step,
                           std::vector<Vector3>& force)
 {
@@ -47,19 +61,13 @@ void ContactForces::press(const Model& model, std::size_t assignment, const Supp
     const Points& points = model.points;
     const std::uint32_t i = supported.point;
     Vector3 surface_velocity = Vector3::Zero();
-    double volume = 0.0;
-    double mobility = 0.0; // of the surface, 1/mass, when all points that stand on it are pushed alike
-    for (std::size_t m = 0; m < support.records.size(); ++m) {
-        const double weight = support.weights[m];
-        const std::uint32_t p = model.families.parent(support.records[m]);
-        surface_velocity += weight * model.records[support.records[m]].v();
-        volume += weight * points.volume[p];
-        mobility += std::abs(weight) * shared_weight_[p] / points.mass[p];
-    }
+    for (std::size_t m = 0; m < support.records.size(); ++m)
+        surface_velocity += support.weights[m] * model.records[support.records[m]].v();
+    const Carrier below = carrier(model, support);
     const Vector3 relative = model.records[i].v() - surface_velocity;
     const double opening = relative.dot(support.normal);
-    const ContactPair pair{support.distance, -approach_factor_ * opening, points.volume[i], volume, points.mass[i],
-                           1.0 / mobility};
+    const ContactPair pair{support.distance, -approach_factor_ * opening, points.volume[i], below.volume,
+                           points.mass[i],   1.0 / below.mobility};
     ContactResponse response;
     law.evaluate({&pair, 1}, {&response, 1});
     note_overlap(assignment, (law.cutoff() - support.distance) / law.cutoff());
@@ -88,9 +96,24 @@ void ContactForces::add_smoothed(const Model& model, std::size_t assignment, dou
                                  std::vector<Vector3>& force)
 {
     // In the order of the points: what a point of the surface gets is then the same for any number of threads.
-    find_supported_points(model, assignment);
+    find_supported_points(model, assignment, assignments_[assignment].law->cutoff());
     for (std::size_t s = 0; s < supported_count_; ++s)
         press(model, assignment, supported_[s], time_step, force);
+}
+
+void ContactForces::bound_supported(const Model& model, std::size_t assignment, ContactBound& largest)
+{
+    // With b_s = (n on the point, -w_p n on the surface) of each contact s, no eigenvalue of M^-1 sum k b_s b_s^T is
+    // above the largest sum of a row of |b_s^T M^-1 b_t| k (Gershgorin): k (1/m_i + sum_p |w_p|/m_p sum_t |w_p,t|).
+    const Contact& law = *assignments_[assignment].law;
+    find_supported_points(model, assignment, about_to_touch * law.cutoff());
+    for (std::size_t s = 0; s < supported_count_; ++s) {
+        const std::uint32_t i = supported_[s].point;
+        const double mass = model.points.mass[i];
+        const Carrier below = carrier(model, supported_[s].support);
+        largest.raise(law, {0.0, 0.0, model.points.volume[i], below.volume, mass, 1.0 / below.mobility},
+                      1.0 / mass + below.mobility);
+    }
 }
 
 } // namespace periporo

@@ -79,8 +79,9 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
                                               Influence::by_name(description.operators.influence, model.horizon));
     find_first_families(model, *force_state);
     FrequencyEstimate frequency;
-    const StableStep stable = stable_step(model, *force_state, ContactForces(std::move(built.contacts)), frequency, 40,
-                                          description.time.safety, true);
+    ContactForces contact(std::move(built.contacts));
+    contact.find_candidates(model, description.discretization.skin_ratio * description.discretization.spacing);
+    const StableStep stable = stable_step(model, *force_state, contact, frequency, 40, description.time.safety, true);
     const double step = description.time.step.value_or(stable.step);
 
     std::string text = fmt::format("{}\n", description.title);

@@ -36,6 +36,21 @@ bool is_quasi_static(const StageDescription& stage)
     return stage.type == "quasi_static";
 }
 
+/// Time of a free fall over the height that the model had at the start, (2 h/|g|)^(1/2); without gravity infinite [s].
+double fall_time(const Model& model, const Vector3& gravity)
+{
+    const double g = gravity.norm();
+    if (!(g > 0.0))
+        return INFINITY;
+    double lowest = INFINITY, highest = -INFINITY;
+    for (const Vector3& x : model.points.initial_position) {
+        const double height = -x.dot(gravity) / g;
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+    }
+    return std::sqrt(2.0 * (highest - lowest) / g);
+}
+
 } // namespace
 
 Simulation::Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
@@ -156,8 +171,8 @@ void Simulation::begin_stage()
     dynamics_.hold(held_directions(model_, description_, held_regions_, stage));
     water_.begin_stage(model_, stage);
     water_.follow(model_, 0.0);
-    renew_step(first_iterations);
     dynamics_.start();
+    renew_step(first_iterations);
     if (!is_quasi_static(stage) && !at_.ledger_open) {
         dynamics_.open_ledger();
         at_.ledger_open = true;
@@ -274,20 +289,34 @@ bool Simulation::quasi_static(const StageDescription& stage)
 bool Simulation::dynamic(const StageDescription& stage)
 {
     const double end = at_.stage_start + stage.duration;
+    // What starts from rest comes to rest only after it has moved; but what has not got going while it could have
+    // fallen over its height, with nothing changing about it, stands.
+    const double stands_from =
+        is_driven(stage) ? INFINITY : at_.stage_start + water_.last_change() + fall_time(model_, description_.gravity);
     while (at_.time < end) {
         take_step({});
         at_.time += at_.time_step;
         dynamics_.times().time(Phase::output,
                                [&] { outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name); });
         progress_.update([&] { return stage_line((at_.time - at_.stage_start) / stage.duration); });
-        // What starts from rest comes to rest only after it has moved.
-        at_.moved = at_.moved || (stage.rest_speed && dynamics_.mean_speed() > 2.0 * *stage.rest_speed);
-        if (at_.moved && water_.settled() && dynamics_.mean_speed() < *stage.rest_speed)
-            break;
+        if (stage.rest_speed) {
+            at_.moved = at_.moved || dynamics_.mean_speed() > 2.0 * *stage.rest_speed;
+            const bool may_end = at_.moved ? water_.settled() : at_.time > stands_from;
+            if (may_end && dynamics_.mean_speed() < *stage.rest_speed)
+                break;
+        }
         if (stop_here())
             return false;
     }
     return true;
+}
+
+bool Simulation::is_driven(const StageDescription& stage) const
+{
+    return std::ranges::any_of(model_.obstacles, [](const Obstacle& o) { return !o.velocity.isZero(0.0); }) ||
+           std::ranges::any_of(description_.held_regions, [&stage](const HeldRegionDescription& region) {
+               return !region.velocity.isZero(0.0) && applies_in(region.stages, stage);
+           });
 }
 
 std::string Simulation::stage_line(double fraction) const

@@ -35,6 +35,8 @@ public:
     void follow(Model& model, double time);
     /// Are the changes of the stage over?
     bool settled() const { return settled_; }
+    /// How long after the beginning of the stage the last of its changes ends [s].
+    double last_change() const { return longest_; }
 
     /// What a checkpoint must keep.
     const WaterCourse& course() const { return course_; }

@@ -120,8 +120,8 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, in
     return std::sqrt(std::max(solver.eigenvalues().real()[highest], 0.0));
 }
 
-StableStep stable_step(Model& model, const ForceState& force_state, const ContactForces& contact,
-                       FrequencyEstimate& estimate, int iterations, double safety, bool damped)
+StableStep stable_step(Model& model, const ForceState& force_state, ContactForces& contact, FrequencyEstimate& estimate,
+                       int iterations, double safety, bool damped)
 {
     StableStep result;
     result.frequency = estimate.update(model, force_state, iterations);

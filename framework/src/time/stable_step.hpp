@@ -48,8 +48,8 @@ private:
 /// step = min(safety * limit, 1.5 dx/c_p) with the limit of a damped oscillator at omega^2 + omega_contact^2, which
 /// bounds operator and contact together, and c_p = sqrt((K + 4G/3)/rho), the fastest of the bodies.
 /// @param damped whether the dashpots of contacts act
-StableStep stable_step(Model& model, const ForceState& force_state, const ContactForces& contact,
-                       FrequencyEstimate& estimate, int iterations, double safety, bool damped);
+StableStep stable_step(Model& model, const ForceState& force_state, ContactForces& contact, FrequencyEstimate& estimate,
+                       int iterations, double safety, bool damped);
 
 /// The longest step of u" + c u' + omega^2 u = 0 in leapfrog steps whose damping force takes the last mid-step
 /// velocity: omega^2 dt^2 + 2 c dt = 4, from the root -1 of z^2 - (2 - omega^2 dt^2 - c dt) z + 1 - c dt. 2/omega

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <random>
 
@@ -48,7 +49,23 @@ struct Ground {
         model.points.position.back() = frame * place;
         model.update_records();
     }
-    std::uint32_t grain() const { return static_cast<std::uint32_t>(model.size() - 1); }
+    /// Puts a grain to each place, in the frame of the ground, instead of the one.
+    void put_all(const std::vector<Vector3>& places)
+    {
+        Points& points = model.points;
+        const std::size_t first = grain();
+        points.resize(first + places.size());
+        for (std::size_t g = 0; g < places.size(); ++g) {
+            const std::size_t i = first + g;
+            points.body[i] = 1;
+            points.mass[i] = points.mass[first];
+            points.volume[i] = points.initial_volume[i] = points.volume[first];
+            points.position[i] = frame * places[g];
+        }
+        model.allocate();
+        find();
+    }
+    std::uint32_t grain() const { return side * side * layers; } ///< the first, if there are more
 
     Eigen::Isometry3d frame;
     Model model;
@@ -162,16 +179,9 @@ TEST_CASE("at a symmetry plane the half of a ground acts as the whole")
     Ground whole;
     // the grain and its mirror image stand on the whole ground
     const Vector3 place(0.3 * dx, 0.1 * dx, 0.2 * dx);
-    whole.model.points.resize(whole.model.size() + 1);
-    Points& points = whole.model.points;
+    whole.put_all({place, {-place.x(), place.y(), place.z()}});
+    const Points& points = whole.model.points;
     const std::size_t last = points.size() - 1;
-    points.body[last] = 1;
-    points.mass[last] = points.mass[last - 1];
-    points.volume[last] = points.initial_volume[last] = points.volume[last - 1];
-    points.position[last - 1] = place;
-    points.position[last] = {-place.x(), place.y(), place.z()};
-    whole.model.allocate();
-    whole.find();
     ContactForces on_whole = on_surface(0.0);
     on_whole.find_candidates(whole.model, 0.1 * dx);
     const std::vector<Vector3> expected = reactions(on_whole, whole.model);
@@ -231,5 +241,40 @@ TEST_CASE("friction stops a slow grain within a step, never throws it back, and 
         } else {
             CHECK(friction == doctest::Approx(grip).epsilon(1e-12).scale(0.0));
         }
+    }
+}
+
+TEST_CASE("the bound on the frequency covers a crowd on the surface, and not by much")
+{
+    for (const double apart : {4.0, 1.0, 0.6, 0.4}) { // grains from each other, in spacings
+        CAPTURE(apart);
+        Ground ground(some_frame(), 0.1);
+        std::vector<Vector3> places;
+        for (double x = -1.5 * dx; x <= 2.5 * dx; x += apart * dx)
+            for (double y = -1.5 * dx; y <= 2.5 * dx; y += apart * dx)
+                places.emplace_back(x, y, 0.2 * dx);
+        ground.put_all(places);
+        ContactForces contact = on_surface(0.0);
+        contact.find_candidates(ground.model, 0.1 * dx);
+
+        // the square of the largest frequency, from all contacts b_s = (1 on the grain, -w_p on the surface)
+        SmoothedSurface surface;
+        surface.find(ground.model, 0, 1, 0.5 * dx, 0.1 * dx);
+        REQUIRE(surface.near().size() == places.size());
+        Eigen::MatrixXd contacts = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(places.size()),
+                                                         static_cast<Eigen::Index>(ground.model.size()));
+        for (std::size_t n = 0; n < places.size(); ++n) {
+            Support support;
+            REQUIRE(surface.find_support(ground.model, n, support));
+            contacts(static_cast<Eigen::Index>(n), surface.near()[n]) = 1.0;
+            for (std::size_t m = 0; m < support.records.size(); ++m)
+                contacts(static_cast<Eigen::Index>(n), support.records[m]) = -support.weights[m];
+        }
+        const double mass = ground.model.points.mass[0];
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(500.0 / mass * contacts * contacts.transpose());
+        const double largest = solver.eigenvalues().maxCoeff();
+        const double bound = contact.bound(ground.model).frequency_squared;
+        CHECK(bound >= largest * (1.0 - 1e-12));
+        CHECK(bound <= 1.6 * largest);
     }
 }
