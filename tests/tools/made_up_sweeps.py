@@ -45,7 +45,7 @@ values = ["0.6", "1.2"]
 name = "s"
 title = "suction"
 unit = "kPa"
-set = ['body.column.suction = "{s} kPa"']
+set = ['body.column.water.suction = "{s} kPa"']
 values = [{ label = "0", set = [] }, 20]
 
 [[sweep]]

@@ -72,7 +72,7 @@ class Sweeps(Folder):
         self.assertEqual([value.number for value in s.values], [0.0, 20.0])
         self.assertEqual(s.words(s.values[1]), "s = 20 kPa")
         self.assertEqual(s.plot_label, "suction [kPa]")
-        self.assertEqual([value.set for value in s.values], [(), ('body.column.suction = "{s} kPa"',)])
+        self.assertEqual([value.set for value in s.values], [(), ('body.column.water.suction = "{s} kPa"',)])
         self.assertEqual(friction.figures, ("response",))
         self.assertEqual(friction.axes[0].title, "friction")
 
@@ -198,7 +198,7 @@ class Plan(Folder):
         self.assertEqual([run.name for run in runs["columns"]], ["a0.6_s0", "a0.6_s20", "a1.2_s0", "a1.2_s20"])
         last = runs["columns"][-1]
         self.assertEqual(last.case.name, "column_1.2.toml")
-        self.assertEqual(last.overrides, ('body.column.suction = "20 kPa"',))
+        self.assertEqual(last.overrides, ('body.column.water.suction = "20 kPa"',))
         self.assertEqual(last.folder, self.out / "columns" / "a1.2_s20")
         self.assertEqual(last.record, self.out / "columns" / "a1.2_s20.json")
 
@@ -208,7 +208,7 @@ class Plan(Folder):
         self.assertEqual(runs["friction"][1].name, "K0-0.5")
 
     def test_labels_in_braces_leave_tables_of_toml_alone(self):
-        text = COLUMNS.replace("""'body.column.suction = "{s} kPa"'""",
+        text = COLUMNS.replace("""'body.column.water.suction = "{s} kPa"'""",
                                """'body.column.water = { type = "uniform", suction = "{s} kPa" }'""")
         _, runs = self.columns(text)
         self.assertEqual(runs["columns"][1].overrides,

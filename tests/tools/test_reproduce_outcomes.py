@@ -57,7 +57,7 @@ values = ["0.6", "1.2"]
 [[sweep.axis]]
 name = "s"
 unit = "kPa"
-set = ["body.column.suction = {s}"]
+set = ["body.column.water.suction = {s}"]
 values = [0, 20, 40]
 
 [[sweep]]
