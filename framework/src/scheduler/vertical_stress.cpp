@@ -7,9 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace periporo {
+namespace {
+
+constexpr double same_section = 0.05; ///< counts of points of two layers that differ by less are of one cross-section
+
+} // namespace
 
 std::optional<VerticalStress> vertical_stress(const Model& model, const ForceState& force_state, std::uint32_t body)
 {
@@ -40,6 +46,12 @@ std::optional<VerticalStress> vertical_stress(const Model& model, const ForceSta
         layer.depth += depth;
         layer.count += 1.0;
     }
+    // the topmost may be a part of a cell
+    const auto [narrowest, widest] =
+        std::minmax_element(layers.size() > 1 ? std::next(layers.begin()) : layers.begin(), layers.end(),
+                            [](const auto& a, const auto& b) { return a.second.count < b.second.count; });
+    if (narrowest->second.count < (1.0 - same_section) * widest->second.count)
+        return std::nullopt;
     VerticalStress profile;
     for (const auto& [index, layer] : layers)
         profile.layers.push_back({layer.depth / layer.count, layer.stress / layer.count, layer.expected / layer.count});

@@ -26,7 +26,8 @@ struct VerticalStress {
     double inner_deviation = 0.0;
 };
 
-/// Layers of one spacing across a body; nothing without gravity. What stands on the body is not seen.
+/// Layers of one spacing across a body; nothing without gravity, nor for a body like a slope, whose layers are not
+/// equally wide and carry more or less than what lies straight above. What stands on the body is not seen.
 std::optional<VerticalStress> vertical_stress(const Model& model, const ForceState& force_state, std::uint32_t body);
 
 nlohmann::json to_json(const VerticalStress& profile);

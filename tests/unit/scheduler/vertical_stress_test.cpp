@@ -15,10 +15,11 @@ constexpr double dx = 0.01;
 constexpr double g = 9.81;
 constexpr int rows = 10;
 
-/// A column of `rows` layers in which all bonds of a point carry the vertical stress `at(height)`.
-std::optional<VerticalStress> profile(const std::function<double(double)>& at, double gravity = g)
+/// A body in which all bonds of a point carry the vertical stress `at(height)`.
+std::optional<VerticalStress> profile(const std::vector<Vector3>& points, const std::function<double(double)>& at,
+                                      double gravity = g)
 {
-    Model model = from_positions(lattice(4, 4, rows, dx), dx);
+    Model model = from_positions(points, dx);
     model.gravity = {0.0, 0.0, -gravity};
     const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
     find_first_families(model, *force);
@@ -29,6 +30,12 @@ std::optional<VerticalStress> profile(const std::function<double(double)>& at, d
     });
     force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
     return vertical_stress(model, *force, 0);
+}
+
+/// That of a column of `rows` layers.
+std::optional<VerticalStress> profile(const std::function<double(double)>& at, double gravity = g)
+{
+    return profile(lattice(4, 4, rows, dx), at, gravity);
 }
 
 double weight_above(double height)
@@ -65,4 +72,14 @@ TEST_CASE("a layer that misses half of the bottom stress is found, and near the 
 TEST_CASE("without gravity there is no profile")
 {
     CHECK_FALSE(profile(weight_above, 0.0));
+}
+
+TEST_CASE("a slope has no profile, a column whose topmost layer is not whole has one")
+{
+    std::vector<Vector3> slope = lattice(20, 4, rows, dx);
+    std::erase_if(slope, [](const Vector3& x) { return x.z() > rows * dx - 0.5 * x.x(); });
+    CHECK_FALSE(profile(slope, weight_above));
+    std::vector<Vector3> column = lattice(8, 8, rows, dx);
+    std::erase_if(column, [](const Vector3& x) { return x.z() > (rows - 1) * dx && x.x() > 4 * dx; });
+    CHECK(profile(column, weight_above));
 }
