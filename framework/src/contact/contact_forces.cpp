@@ -17,8 +17,6 @@ constexpr std::size_t block = 128;
 constexpr double bearing_overlap = 0.1; ///< overlap over reach up to which a point counts as resting on a surface
 /// How far points and obstacles move until points near rigid surfaces are sought anew, in spacings.
 constexpr double surface_skin = 0.5;
-/// Partners of a point in the estimate of the largest frequency: six points, each moving against it.
-constexpr double partners_in_contact = 12.0;
 
 } // namespace
 
@@ -210,8 +208,6 @@ void ContactForces::add_reactions(const Model& model, double time_step, Approach
             add_surface(model, a, force);
         else if (assignments_[a].surface_body)
             add_smoothed(model, a, time_step, force);
-        else if (within_one_body(assignments_[a]))
-            add_free_grains(model, a, time_step, force);
         else
             add_pairs(model, a, time_step, force);
     }
@@ -246,22 +242,24 @@ ContactBound ContactForces::bound(const Model& model)
 {
     ContactBound largest;
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
-        const ContactAssignment& assignment = assignments_[a];
-        if (assignment.surface_body) {
+        if (at_rigid_surface(assignments_[a]))
+            bound_surface(model, a, largest);
+        else if (assignments_[a].surface_body)
             bound_supported(model, a, largest);
-            continue;
-        }
-        const bool rigid = at_rigid_surface(assignment);
-        const double partners = rigid ? 1.0 : partners_in_contact;
-        for (std::size_t i = 0; i < model.size(); ++i) {
-            if (!names(assignment, model.points.body[i]))
-                continue;
-            const double v = model.points.volume[i];
-            const double m = model.points.mass[i];
-            largest.raise(*assignment.law, {0.0, 0.0, v, rigid ? 0.0 : v, m, rigid ? 0.0 : m}, partners / m);
-        }
+        else
+            bound_pairs(model, a, largest);
     }
     return largest;
+}
+
+void ContactForces::bound_surface(const Model& model, std::size_t assignment, ContactBound& largest) const
+{
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        if (!names(assignments_[assignment], model.points.body[i]))
+            continue;
+        const double m = model.points.mass[i];
+        largest.raise(*assignments_[assignment].law, {0.0, 0.0, model.points.volume[i], 0.0, m, 0.0}, 1.0 / m);
+    }
 }
 
 } // namespace periporo

@@ -102,8 +102,8 @@ public:
     const std::vector<double>& grain_reach() const { return grain_reach_; }
     void set_grain_reach(std::vector<double> reach) { grain_reach_ = std::move(reach); }
 
-    /// For the stable step: every law at full overlap, those between points with six partners, those on a smoothed
-    /// surface with as many as share its points at the present positions. Records must be current.
+    /// For the stable step: every law at full overlap, with as many contacts at a point, or sharing the points of a
+    /// smoothed surface, as there are at the present positions or soon may be. Records must be current.
     ContactBound bound(const Model& model);
 
 private:
@@ -133,20 +133,27 @@ private:
     void add_smoothed(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
     /// @param reach above the surface within which points count as standing on it [m]
     void find_supported_points(const Model& model, std::size_t assignment, double reach);
-    void bound_supported(const Model& model, std::size_t assignment, ContactBound& largest);
     void press(const Model& model, std::size_t assignment, const SupportedPoint& supported, double time_step,
                std::vector<Vector3>& force);
     void note_overlap(std::size_t assignment, double overlap);
+    void bound_surface(const Model& model, std::size_t assignment, ContactBound& largest) const;
+    void bound_supported(const Model& model, std::size_t assignment, ContactBound& largest);
+    void bound_pairs(const Model& model, std::size_t assignment, ContactBound& largest);
+
     void add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
-    void add_free_grains(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
-    void note_pair_overlaps(std::size_t assignment);
-    /// How many `neighbours` a point touches, to contacts_of_.
-    template <class Neighbours, class Reach>
-    void count_contacts(const Model& model, std::uint32_t point, const Neighbours& neighbours, const Reach& reach);
+    /// Are there points that for_each_touching() would visit? Finds them.
+    bool may_touch(const Model& model, std::size_t assignment);
+    /// Marks the free grains of a body and their neighbours; false when there are none.
+    bool find_concerned(const Model& model, const ContactAssignment& assignment);
+    /// Calls visit(point, neighbours that it may touch, reach) for every point that may touch another under a law
+    /// between points, with reach(point of the neighbour) [m]. In parallel.
+    template <class Visit>
+    void for_each_touching(const Model& model, std::size_t assignment, const Visit& visit) const;
     /// Sums the contacts of a point with `neighbours`, no farther apart than reach(neighbour's point).
-    template <class Neighbours, class Reach>
-    void gather_pairs(const Model& model, const Contact& law, std::uint32_t point, const Neighbours& neighbours,
-                      const Reach& reach, double time_step, std::vector<Vector3>& force);
+    template <class Reach>
+    void gather_pairs(const Model& model, const Contact& law, std::uint32_t point,
+                      std::span<const std::uint32_t> neighbours, const Reach& reach, double time_step,
+                      std::vector<Vector3>& force);
     void update_grain_reach(const Model& model, const ContactAssignment& assignment);
 
     std::vector<ContactAssignment> assignments_;
@@ -172,6 +179,7 @@ private:
     /// Contacts of each point under the assignment at hand. Friction that stops the slip of a pair within a step is
     /// divided by the larger number of its two ends: together they stop a point and never throw it back.
     std::vector<std::uint32_t> contacts_of_;
+    std::vector<double> partners_;        ///< of each point, see bound_pairs()
     std::vector<std::uint8_t> concerned_; ///< 1: the point is a free grain or may touch one
     std::vector<Vector3> friction_;
     std::vector<SurfaceContact> surface_contacts_;

@@ -6,6 +6,7 @@
 #include "contact/contact_forces.hpp"
 #include "families/cell_list.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +17,12 @@ namespace periporo {
 namespace {
 
 constexpr std::size_t block = 128;
+/// Distance up to which two points count in the estimate of the largest frequency, over that at which they touch: they
+/// may do so before the next estimate.
+constexpr double about_to_touch = 1.1;
+/// Of k/m, for the largest frequency of points in contact: that of a cubic lattice. Grains that come loose until the
+/// next estimate are not seen yet.
+constexpr double fewest_partners = 4.0;
 
 /// Around the points and images of a body, `reach` wider on all sides.
 Bounds box_of(const Model& model, std::uint32_t body, double reach)
@@ -78,21 +85,9 @@ void ContactForces::find_pairs(const Model& model, std::size_t assignment, doubl
     }
 }
 
-template <class Neighbours, class Reach>
-void ContactForces::count_contacts(const Model& model, std::uint32_t point, const Neighbours& neighbours,
-                                   const Reach& reach)
-{
-    const Vector3 x = model.records[point].x();
-    contacts_of_[point] =
-        static_cast<std::uint32_t>(std::count_if(neighbours.begin(), neighbours.end(), [&](std::uint32_t c) {
-            const double distance = (x - model.records[c].x()).norm();
-            return distance < reach(model.families.parent(c)) && distance > 0.0;
-        }));
-}
-
-template <class Neighbours, class Reach>
+template <class Reach>
 void ContactForces::gather_pairs(const Model& model, const Contact& law, std::uint32_t point,
-                                 const Neighbours& neighbours, const Reach& reach, double time_step,
+                                 std::span<const std::uint32_t> neighbours, const Reach& reach, double time_step,
                                  std::vector<Vector3>& force)
 {
     std::array<ContactPair, block> pairs;
@@ -148,36 +143,6 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
     flush();
 }
 
-void ContactForces::add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force)
-{
-    const Candidates& candidates = candidates_[assignment];
-    if (candidates.neighbours.empty())
-        return;
-    const Contact& law = *assignments_[assignment].law;
-    const auto n = static_cast<std::uint32_t>(model.size());
-    const auto row = [&candidates](std::uint32_t i) {
-        return std::span(candidates.neighbours.data() + candidates.first[i],
-                         candidates.first[i + 1] - candidates.first[i]);
-    };
-    const auto reach = [&law](std::uint32_t) { return law.cutoff(); };
-    contacts_of_.assign(n, 0);
-    overlap_.assign(n, 0.0);
-#pragma omp parallel for schedule(dynamic, 64)
-    for (std::uint32_t i = 0; i < n; ++i)
-        count_contacts(model, i, row(i), reach);
-#pragma omp parallel for schedule(dynamic, 64)
-    for (std::uint32_t i = 0; i < n; ++i)
-        if (contacts_of_[i] > 0)
-            gather_pairs(model, law, i, row(i), reach, time_step, force);
-    note_pair_overlaps(assignment);
-}
-
-void ContactForces::note_pair_overlaps(std::size_t assignment)
-{
-    for (const double overlap : overlap_)
-        note_overlap(assignment, overlap);
-}
-
 void ContactForces::update_grain_reach(const Model& model, const ContactAssignment& assignment)
 {
     const double cutoff = assignment.law->cutoff();
@@ -199,11 +164,9 @@ void ContactForces::update_grain_reach(const Model& model, const ContactAssignme
     }
 }
 
-void ContactForces::add_free_grains(const Model& model, std::size_t at, double time_step, std::vector<Vector3>& force)
+bool ContactForces::find_concerned(const Model& model, const ContactAssignment& assignment)
 {
-    const ContactAssignment& assignment = assignments_[at];
     update_grain_reach(model, assignment);
-    // Points that touch a free grain, or are one.
     concerned_.assign(model.size(), 0);
     bool some = false;
     for (std::size_t i = 0; i < model.size(); ++i) {
@@ -215,17 +178,25 @@ void ContactForces::add_free_grains(const Model& model, std::size_t at, double t
         for (std::size_t b = 0; b < family.count; ++b)
             concerned_[model.families.parent(family.neighbours[b])] = 1;
     }
-    if (!some)
-        return;
-    contacts_of_.assign(model.size(), 0);
-    overlap_.assign(model.size(), 0.0);
-    // Calls visit(point, partners, reach) for every point that may touch a free grain.
-    const auto for_each_concerned = [&](auto&& visit) {
+    return some;
+}
+
+bool ContactForces::may_touch(const Model& model, std::size_t assignment)
+{
+    const ContactAssignment& at = assignments_[assignment];
+    return within_one_body(at) ? find_concerned(model, at) : !candidates_[assignment].neighbours.empty();
+}
+
+template <class Visit>
+void ContactForces::for_each_touching(const Model& model, std::size_t assignment, const Visit& visit) const
+{
+    const auto n = static_cast<std::uint32_t>(model.size());
+    if (within_one_body(assignments_[assignment])) {
 #pragma omp parallel
         {
             thread_local std::vector<std::uint32_t> partners; // only ever grows
 #pragma omp for schedule(dynamic, 64)
-            for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i) {
+            for (std::uint32_t i = 0; i < n; ++i) {
                 if (concerned_[i] == 0)
                     continue;
                 partners.clear();
@@ -233,19 +204,70 @@ void ContactForces::add_free_grains(const Model& model, std::size_t at, double t
                 for (std::size_t b = 0; b < family.count; ++b)
                     if (model.free_grain[i] != 0 || model.free_grain[model.families.parent(family.neighbours[b])] != 0)
                         partners.push_back(family.neighbours[b]);
-                visit(i, partners, [&, i](std::uint32_t other) {
+                visit(i, std::span<const std::uint32_t>(partners), [this, i](std::uint32_t other) {
                     return std::min(std::abs(grain_reach_[i]), std::abs(grain_reach_[other]));
                 });
             }
         }
-    };
-    for_each_concerned(
-        [&](std::uint32_t i, const auto& partners, const auto& reach) { count_contacts(model, i, partners, reach); });
-    for_each_concerned([&](std::uint32_t i, const auto& partners, const auto& reach) {
-        if (contacts_of_[i] > 0)
-            gather_pairs(model, *assignment.law, i, partners, reach, time_step, force);
+        return;
+    }
+    const Candidates& candidates = candidates_[assignment];
+    const double cutoff = assignments_[assignment].law->cutoff();
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::uint32_t i = 0; i < n; ++i)
+        visit(i,
+              std::span(candidates.neighbours.data() + candidates.first[i],
+                        candidates.first[i + 1] - candidates.first[i]),
+              [cutoff](std::uint32_t) { return cutoff; });
+}
+
+void ContactForces::add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force)
+{
+    if (!may_touch(model, assignment))
+        return;
+    contacts_of_.assign(model.size(), 0);
+    overlap_.assign(model.size(), 0.0);
+    for_each_touching(model, assignment, [&](std::uint32_t i, std::span<const std::uint32_t> others, auto reach) {
+        contacts_of_[i] = static_cast<std::uint32_t>(std::ranges::count_if(others, [&](std::uint32_t c) {
+            const double distance = (model.records[i].x() - model.records[c].x()).norm();
+            return distance < reach(model.families.parent(c)) && distance > 0.0;
+        }));
     });
-    note_pair_overlaps(at);
+    const Contact& law = *assignments_[assignment].law;
+    for_each_touching(model, assignment, [&](std::uint32_t i, std::span<const std::uint32_t> others, auto reach) {
+        if (contacts_of_[i] > 0)
+            gather_pairs(model, law, i, others, reach, time_step, force);
+    });
+    for (const double overlap : overlap_)
+        note_overlap(assignment, overlap);
+}
+
+void ContactForces::bound_pairs(const Model& model, std::size_t assignment, ContactBound& largest)
+{
+    // (u_i - u_j) . n of a contact is at most 2 (u_i . n)^2 + 2 (u_j . n)^2, when squared: no eigenvalue is above the
+    // largest 2 k/m of sum n (x) n over the contacts of a point. On a cubic and a face-centred lattice, 4 and 8 k/m, it
+    // is the largest frequency itself.
+    partners_.assign(model.size(), fewest_partners);
+    if (may_touch(model, assignment))
+        for_each_touching(model, assignment, [&](std::uint32_t i, std::span<const std::uint32_t> others, auto reach) {
+            Eigen::Matrix3d pushes = Eigen::Matrix3d::Zero();
+            for (const std::uint32_t c : others) {
+                const Vector3 apart = model.records[i].x() - model.records[c].x();
+                const double squared = apart.squaredNorm();
+                if (squared > 0.0 && squared < std::pow(about_to_touch * reach(model.families.parent(c)), 2))
+                    pushes += apart * apart.transpose() / squared;
+            }
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+            solver.computeDirect(pushes, Eigen::EigenvaluesOnly);
+            partners_[i] = std::max(partners_[i], 2.0 * solver.eigenvalues()[2]);
+        });
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        if (!names(assignments_[assignment], model.points.body[i]))
+            continue;
+        const double v = model.points.volume[i];
+        const double m = model.points.mass[i];
+        largest.raise(*assignments_[assignment].law, {0.0, 0.0, v, v, m, m}, partners_[i] / m);
+    }
 }
 
 } // namespace periporo

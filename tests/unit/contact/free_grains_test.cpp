@@ -8,16 +8,19 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Eigenvalues>
+
 using namespace periporo;
 
 namespace {
 
 const double spacing = 1e-2; // the law reaches 0.8 of it
 
-/// Grains in a row.
 struct Grains {
-    explicit Grains(const std::vector<double>& places)
-        : model(specimens::from_positions(positions(places), spacing)), contact({{short_range(), {0, 0}}})
+    /// In a row.
+    explicit Grains(const std::vector<double>& places) : Grains(positions(places)) {}
+    explicit Grains(const std::vector<Vector3>& places)
+        : model(specimens::from_positions(places, spacing)), contact({{short_range(), {0, 0}}})
     {
         find_first_families(model,
                             *make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon)));
@@ -45,7 +48,11 @@ struct Grains {
     /// Energy of the contacts of grains at `places` [spacings] of which those named are free [J].
     double energy(const std::vector<double>& places, const std::vector<std::uint8_t>& free)
     {
-        model.points.position = positions(places);
+        return energy(positions(places), free);
+    }
+    double energy(const std::vector<Vector3>& places, const std::vector<std::uint8_t>& free)
+    {
+        model.points.position = places;
         model.free_grain = free;
         model.update_records();
         std::vector<Vector3> force(model.size(), Vector3::Zero());
@@ -81,4 +88,49 @@ TEST_CASE("a grain that bonds again keeps its reach against other grains until t
     CHECK(grains.energy({0.15, 0.8, 1.3}, {1, 0, 0}) == 0.0);
     CHECK(grains.energy({0.0, 0.8, 1.6}, {1, 0, 0}) == 0.0);
     CHECK(grains.energy({0.15, 0.8, 1.6}, {1, 0, 0}) > 0.0);
+}
+
+TEST_CASE("the bound on the frequency covers the contacts of loose and of crowded grains, and not by much")
+{
+    struct Heap {
+        double apart;  // [spacings]
+        double jitter; // [of that]
+        double excess; // of the bound, at most
+    };
+    for (const Heap& heap : {Heap{0.75, 0.0, 1.15}, Heap{0.75, 0.2, 2.0}, Heap{0.6, 0.3, 2.2}}) {
+        CAPTURE(heap.apart);
+        CAPTURE(heap.jitter);
+        const std::vector<Vector3> places =
+            specimens::jittered(specimens::lattice(5, 5, 5, heap.apart * spacing), heap.apart * spacing, heap.jitter);
+        std::vector<Vector3> far = places;
+        for (Vector3& x : far)
+            x *= 3.0;
+        Grains grains(places);
+        const std::vector<std::uint8_t> all_free(places.size(), 1);
+        grains.energy(far, all_free); // each has the whole reach of the law now
+        grains.energy(places, all_free);
+
+        const auto law = Grains::short_range();
+        const double v = grains.model.points.volume[0];
+        const double m = grains.model.points.mass[0];
+        const ContactPair pair{0.0, 0.0, v, v, m, m};
+        ContactResponse response;
+        law->evaluate({&pair, 1}, {&response, 1});
+        const auto n = static_cast<Eigen::Index>(places.size());
+        Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+        for (Eigen::Index i = 0; i < n; ++i)
+            for (Eigen::Index j = 0; j < n; ++j) {
+                const Vector3 apart = places[static_cast<std::size_t>(i)] - places[static_cast<std::size_t>(j)];
+                if (i == j || apart.norm() >= law->cutoff())
+                    continue;
+                const Eigen::Matrix3d push = response.stiffness / m * apart * apart.transpose() / apart.squaredNorm();
+                stiffness.block<3, 3>(3 * i, 3 * i) += push;
+                stiffness.block<3, 3>(3 * i, 3 * j) -= push;
+            }
+        const double largest =
+            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+        const double bound = grains.contact.bound(grains.model).frequency_squared;
+        CHECK(bound >= largest);
+        CHECK(bound <= heap.excess * largest);
+    }
 }
