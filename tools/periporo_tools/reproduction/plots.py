@@ -20,6 +20,7 @@ _COLOURS = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY)
 _MARKERS = "osD^vP"
 _LAW_STYLES = ("--", ":", "-.")
 _QUANTITIES = ("run_out", "height")
+_LABEL_WIDTH = 0.14  # of the longest labels, over the length of an axis
 _MOST_TICKS = 8
 
 Group = tuple[str, list[Outcome]]  # what it is called, and its runs along the first axis
@@ -137,6 +138,12 @@ def _plain_numbers(axis) -> None:
     axis.set_minor_locator(NullLocator())
 
 
+def _crowded(ticks: list[float], logarithmic: bool) -> bool:
+    """Would labels of the ticks touch each other, side by side?"""
+    places = np.sort(np.log(ticks) if logarithmic else np.array(ticks))
+    return len(places) > 1 and float(np.diff(places).min()) < _LABEL_WIDTH * (places[-1] - places[0])
+
+
 def _over_numbers(axes, result: SweepOutcome, groups: list[Group], quantity: str, laws: bool) -> None:
     axis = result.sweep.axes[0]
     places = [[outcome.number(0) for outcome in outcomes] for _, outcomes in groups]
@@ -154,6 +161,8 @@ def _over_numbers(axes, result: SweepOutcome, groups: list[Group], quantity: str
         _plain_numbers(axes.xaxis)
     if len(axis.values) <= _MOST_TICKS:
         axes.set_xticks([value.number for value in axis.values], [value.label for value in axis.values])
+        if _crowded([value.number for value in axis.values], axis.logarithmic):
+            axes.tick_params(axis="x", rotation=45)
     _draw_laws(axes, places, groups, quantity, sideways=False)
     axes.set_xlabel(axis.plot_label)
     axes.set_ylabel(_label(quantity, laws))
