@@ -151,7 +151,7 @@ struct StageDescription {
     std::int64_t maximum_steps = 20000;    ///< quasi_static
     std::string response = "elastic";      ///< quasi_static: "elastic" or "full"
     double duration = 0.0;                 ///< dynamic [s]
-    std::optional<double> rest_speed;      ///< dynamic: ends early when sqrt(2 E_kin/m) falls below it [m/s]
+    std::optional<double> rest_speed;      ///< dynamic: ends early when sqrt(2 E_kin/m) of all bodies is below it [m/s]
     std::vector<WaterChangeDescription> water_changes;
 };
 

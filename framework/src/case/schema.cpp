@@ -274,8 +274,8 @@ TableRules dynamic_rules()
          TablePresence::defaulted,
          "What ends the stage before its duration",
          {{Parameter::real("rest_speed", dimension::velocity,
-                           "Speed sqrt(2 E_kin/m) below which all is at rest, once it has moved at twice this speed or "
-                           "could have fallen over its height")
+                           "Speed sqrt(2 E_kin/m) of a body below which it is at rest, once one has moved at "
+                           "twice this speed or could have fallen over its height")
                .above(0.0)
                .optional()}}}};
     return rules;

@@ -4,6 +4,7 @@
 #include "contact/contact_forces.hpp"
 
 #include "contact/assignment.hpp"
+#include "contact/contact_slopes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,17 +20,6 @@ constexpr double bearing_overlap = 0.1; ///< overlap over reach up to which a po
 constexpr double surface_skin = 0.5;
 
 } // namespace
-
-void ContactBound::raise(const Contact& law, const ContactPair& pair, double mobility)
-{
-    constexpr double slow = 1e-6; // [m/s]: the slope of the dashpot, however the law writes it
-    std::array<ContactPair, 2> pairs{pair, pair};
-    pairs[1].approach_speed = slow;
-    std::array<ContactResponse, 2> responses;
-    law.evaluate(pairs, responses);
-    frequency_squared = std::max(frequency_squared, mobility * responses[0].stiffness);
-    damping_rate = std::max(damping_rate, mobility * (responses[1].force - responses[0].force) / slow);
-}
 
 void ContactForces::find_candidates(const Model& model, double slack)
 {
@@ -238,27 +228,31 @@ void ContactForces::add_surface_friction(const Model& model, double time_step, s
     }
 }
 
-ContactBound ContactForces::bound(const Model& model)
+const std::vector<ContactBound>& ContactForces::bounds(const Model& model)
 {
-    ContactBound largest;
+    bounds_.assign(model.size(), {});
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
         if (at_rigid_surface(assignments_[a]))
-            bound_surface(model, a, largest);
+            bound_surface(model, a);
         else if (assignments_[a].surface_body)
-            bound_supported(model, a, largest);
+            bound_supported(model, a);
         else
-            bound_pairs(model, a, largest);
+            bound_pairs(model, a);
     }
-    return largest;
+    return bounds_;
 }
 
-void ContactForces::bound_surface(const Model& model, std::size_t assignment, ContactBound& largest) const
+void ContactForces::bound_surface(const Model& model, std::size_t assignment)
 {
-    for (std::size_t i = 0; i < model.size(); ++i) {
-        if (!names(assignments_[assignment], model.points.body[i]))
-            continue;
-        const double m = model.points.mass[i];
-        largest.raise(*assignments_[assignment].law, {0.0, 0.0, model.points.volume[i], 0.0, m, 0.0}, 1.0 / m);
+    const ContactAssignment& at = assignments_[assignment];
+    const RigidContactSurface surface(model, at);
+    if (!surface.present())
+        return;
+    for (const std::uint32_t i : near_surface_[assignment]) {
+        Vector3 normal;
+        surface.distance(model.points.position[i], normal);
+        const double mass = model.points.mass[i];
+        add(bounds_[i], normal, slopes(*at.law, {0.0, 0.0, model.points.volume[i], 0.0, mass, 0.0}), 1.0 / mass);
     }
 }
 

@@ -34,15 +34,12 @@ struct ObstaclePower {
     double damping = 0.0;  ///< the part of what does not come from stored energy
 };
 
-/// What contact alone asks of the step.
+/// Stiffness and damping of a point against the ground, over its mass, that together with those of all others are
+/// nowhere below what contact adds: with blocks S_i and C_i, sum u_i . S_i u_i m_i is at least twice the energy of the
+/// contacts for all displacements u, and the same holds of C_i and the power of the dashpots.
 struct ContactBound {
-    double frequency_squared = 0.0; ///< k/m, the largest [1/s2]
-    double damping_rate = 0.0;      ///< c/m of the dashpots, the largest [1/s]
-
-    /// Includes a law at full overlap.
-    /// @param pair masses and volumes; not approaching
-    /// @param mobility acceleration that changes an overlap, for 1 N in all contacts at once [1/kg]
-    void raise(const Contact& law, const ContactPair& pair, double mobility);
+    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(); ///< [1/s2]
+    Eigen::Matrix3d damping = Eigen::Matrix3d::Zero();   ///< [1/s]
 };
 
 /// Finds contacts and adds their forces. Each point sums its own contacts, both directions of a pair are evaluated with
@@ -102,9 +99,9 @@ public:
     const std::vector<double>& grain_reach() const { return grain_reach_; }
     void set_grain_reach(std::vector<double> reach) { grain_reach_ = std::move(reach); }
 
-    /// For the stable step: every law at full overlap, with as many contacts at a point, or sharing the points of a
-    /// smoothed surface, as there are at the present positions or soon may be. Records must be current.
-    ContactBound bound(const Model& model);
+    /// For the stable step, of every point: every law at full overlap, with the contacts that there are at the present
+    /// positions or soon may be. Records must be current, and candidates found.
+    const std::vector<ContactBound>& bounds(const Model& model);
 
 private:
     struct SurfaceContact {
@@ -136,9 +133,9 @@ private:
     void press(const Model& model, std::size_t assignment, const SupportedPoint& supported, double time_step,
                std::vector<Vector3>& force);
     void note_overlap(std::size_t assignment, double overlap);
-    void bound_surface(const Model& model, std::size_t assignment, ContactBound& largest) const;
-    void bound_supported(const Model& model, std::size_t assignment, ContactBound& largest);
-    void bound_pairs(const Model& model, std::size_t assignment, ContactBound& largest);
+    void bound_surface(const Model& model, std::size_t assignment);
+    void bound_supported(const Model& model, std::size_t assignment);
+    void bound_pairs(const Model& model, std::size_t assignment);
 
     void add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
     /// Are there points that for_each_touching() would visit? Finds them.
@@ -179,10 +176,10 @@ private:
     /// Contacts of each point under the assignment at hand. Friction that stops the slip of a pair within a step is
     /// divided by the larger number of its two ends: together they stop a point and never throw it back.
     std::vector<std::uint32_t> contacts_of_;
-    std::vector<double> partners_;        ///< of each point, see bound_pairs()
     std::vector<std::uint8_t> concerned_; ///< 1: the point is a free grain or may touch one
     std::vector<Vector3> friction_;
     std::vector<SurfaceContact> surface_contacts_;
+    std::vector<ContactBound> bounds_;
     std::vector<double> point_energy_;
     std::vector<Vector3> damping_;
     /// A grain that comes loose among others takes the room it finds: its reach starts at the distance of its nearest

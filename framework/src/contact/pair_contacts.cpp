@@ -4,9 +4,9 @@
 // Contact of points with points: of two bodies, and of free grains with all others of their body.
 #include "contact/assignment.hpp"
 #include "contact/contact_forces.hpp"
+#include "contact/contact_slopes.hpp"
 #include "families/cell_list.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -242,32 +242,25 @@ void ContactForces::add_pairs(const Model& model, std::size_t assignment, double
         note_overlap(assignment, overlap);
 }
 
-void ContactForces::bound_pairs(const Model& model, std::size_t assignment, ContactBound& largest)
+void ContactForces::bound_pairs(const Model& model, std::size_t assignment)
 {
-    // (u_i - u_j) . n of a contact is at most 2 (u_i . n)^2 + 2 (u_j . n)^2, when squared: no eigenvalue is above the
-    // largest 2 k/m of sum n (x) n over the contacts of a point. On a cubic and a face-centred lattice, 4 and 8 k/m, it
-    // is the largest frequency itself.
-    partners_.assign(model.size(), fewest_partners);
-    if (may_touch(model, assignment))
-        for_each_touching(model, assignment, [&](std::uint32_t i, std::span<const std::uint32_t> others, auto reach) {
-            Eigen::Matrix3d pushes = Eigen::Matrix3d::Zero();
-            for (const std::uint32_t c : others) {
-                const Vector3 apart = model.records[i].x() - model.records[c].x();
-                const double squared = apart.squaredNorm();
-                if (squared > 0.0 && squared < std::pow(about_to_touch * reach(model.families.parent(c)), 2))
-                    pushes += apart * apart.transpose() / squared;
-            }
-            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-            solver.computeDirect(pushes, Eigen::EigenvaluesOnly);
-            partners_[i] = std::max(partners_[i], 2.0 * solver.eigenvalues()[2]);
-        });
-    for (std::size_t i = 0; i < model.size(); ++i) {
-        if (!names(assignments_[assignment], model.points.body[i]))
-            continue;
-        const double v = model.points.volume[i];
-        const double m = model.points.mass[i];
-        largest.raise(*assignments_[assignment].law, {0.0, 0.0, v, v, m, m}, partners_[i] / m);
-    }
+    // (u_i - u_j) . n is, squared, at most 2 (u_i . n)^2 + 2 (u_j . n)^2. On a cubic and a face-centred lattice the
+    // largest eigenvalue of the blocks, 4 and 8 k/m, is that of the contacts themselves.
+    if (!may_touch(model, assignment))
+        return;
+    const Contact& law = *assignments_[assignment].law;
+    for_each_touching(model, assignment, [&](std::uint32_t i, std::span<const std::uint32_t> others, auto reach) {
+        const double mass = model.points.mass[i];
+        for (const std::uint32_t c : others) {
+            const std::uint32_t p = model.families.parent(c);
+            const Vector3 apart = model.records[i].x() - model.records[c].x();
+            const double distance = apart.norm();
+            if (distance > 0.0 && distance < about_to_touch * reach(p))
+                add(bounds_[i], apart / distance,
+                    slopes(law, {0.0, 0.0, model.points.volume[i], model.points.volume[p], mass, model.points.mass[p]}),
+                    2.0 / mass);
+        }
+    });
 }
 
 } // namespace periporo

@@ -4,6 +4,7 @@
 // Contact of the points of one body with the smoothed surface of another.
 #include "contact/assignment.hpp"
 #include "contact/contact_forces.hpp"
+#include "contact/contact_slopes.hpp"
 
 #include <cmath>
 
@@ -12,7 +13,7 @@ namespace {
 
 /// Distance up to which a point counts in the estimate of the largest frequency, over the reach of the law: it may
 /// touch before the next estimate.
-constexpr double about_to_touch = 1.5;
+constexpr double about_to_touch = 1.75;
 
 /// A force on a point or on an image, as a force on the point that it stands for.
 void give(const Model& model, std::uint32_t record, const Vector3& force, std::vector<Vector3>& forces)
@@ -101,18 +102,27 @@ void ContactForces::add_smoothed(const Model& model, std::size_t assignment, dou
         press(model, assignment, supported_[s], time_step, force);
 }
 
-void ContactForces::bound_supported(const Model& model, std::size_t assignment, ContactBound& largest)
+void ContactForces::bound_supported(const Model& model, std::size_t assignment)
 {
-    // With b_s = (n on the point, -w_p n on the surface) of each contact s, no eigenvalue of M^-1 sum k b_s b_s^T is
-    // above the largest sum of a row of |b_s^T M^-1 b_t| k (Gershgorin): k (1/m_i + sum_p |w_p|/m_p sum_t |w_p,t|).
+    // (u_i - sum w_p u_p) . n is, squared, at most 2 (u_i . n)^2 + 2 sum |w| sum |w_p| (u_p . n)^2.
     const Contact& law = *assignments_[assignment].law;
     find_supported_points(model, assignment, about_to_touch * law.cutoff());
     for (std::size_t s = 0; s < supported_count_; ++s) {
-        const std::uint32_t i = supported_[s].point;
+        const auto& [i, support] = supported_[s];
         const double mass = model.points.mass[i];
-        const Carrier below = carrier(model, supported_[s].support);
-        largest.raise(law, {0.0, 0.0, model.points.volume[i], below.volume, mass, 1.0 / below.mobility},
-                      1.0 / mass + below.mobility);
+        const Carrier below = carrier(model, support);
+        const ContactSlopes both =
+            slopes(law, {0.0, 0.0, model.points.volume[i], below.volume, mass, 1.0 / below.mobility});
+        add(bounds_[i], support.normal, both, 2.0 / mass);
+        double weights = 0.0;
+        for (const double weight : support.weights)
+            weights += std::abs(weight);
+        for (std::size_t m = 0; m < support.records.size(); ++m) {
+            const std::uint32_t p = model.families.parent(support.records[m]);
+            const Isometry& isometry = model.isometries[model.families.isometry(support.records[m])];
+            add(bounds_[p], isometry.rotation.transpose() * support.normal, both,
+                2.0 * weights * std::abs(support.weights[m]) / model.points.mass[p]);
+        }
     }
 }
 

@@ -81,7 +81,8 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     FrequencyEstimate frequency;
     ContactForces contact(std::move(built.contacts));
     contact.find_candidates(model, description.discretization.skin_ratio * description.discretization.spacing);
-    const StableStep stable = stable_step(model, *force_state, contact, frequency, 40, description.time.safety, true);
+    const StableStep stable =
+        stable_step(model, *force_state, contact, frequency, 40, description.time.safety, 0.0, true);
     const double step = description.time.step.value_or(stable.step);
 
     std::string text = fmt::format("{}\n", description.title);
@@ -113,11 +114,9 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
                         model.families.images().size());
     text += fmt::format("  force state {}, influence {}\n", description.operators.force_state,
                         description.operators.influence);
-    text += fmt::format("  step {:.4g} s (operator 2/omega {:.4g} s, wave rule {:.4g} s{})\n", step,
-                        2.0 / stable.frequency, stable.wave_limit,
-                        stable.contact_frequency > 0.0
-                            ? fmt::format(", contact 2/omega {:.4g} s", 2.0 / stable.contact_frequency)
-                            : "");
+    text += fmt::format(
+        "  step {:.4g} s (2/omega {:.4g} s, wave rule {:.4g} s{})\n", step, 2.0 / stable.frequency, stable.wave_limit,
+        stable.damping_rate > 0.0 ? fmt::format(", dashpots of contacts {:.3g} 1/s", stable.damping_rate) : "");
     double point_steps = 0.0;
     for (const StageDescription& stage : description.stages) {
         if (stage.type == "quasi_static") {

@@ -235,15 +235,14 @@ void Simulation::renew_step(int iterations)
     }
     const StageDescription& stage = description_.stages[at_.stage];
     StableStep stable = stable_step(model_, *force_state_, contact_, frequency_, iterations, description_.time.safety,
-                                    !is_quasi_static(stage));
+                                    at_.time_step, !is_quasi_static(stage));
     if (is_quasi_static(stage))
         stable.step *= local_damping_factor(stage.damping);
     const bool news = std::abs(stable.step - at_.time_step) > 0.1 * at_.time_step;
     at_.time_step = stable.step;
     if (news)
-        log_->info("stable step {:.4g} s: operator 2/omega = {:.4g} s, contact 2/omega = {:.4g} s, wave rule {:.4g} s",
-                   stable.step, 2.0 / stable.frequency,
-                   stable.contact_frequency > 0.0 ? 2.0 / stable.contact_frequency : INFINITY, stable.wave_limit);
+        log_->info("stable step {:.4g} s: 2/omega = {:.4g} s, dashpots of contacts {:.3g} 1/s, wave rule {:.4g} s",
+                   stable.step, 2.0 / stable.frequency, stable.damping_rate, stable.wave_limit);
 }
 
 void Simulation::take_step(const StepOptions& options)

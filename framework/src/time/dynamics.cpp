@@ -204,10 +204,17 @@ double Dynamics::acceleration_scale() const
 
 double Dynamics::mean_speed() const
 {
-    double momentum_mass = 0.0;
-    for (const double m : model_.points.mass)
-        momentum_mass += m;
-    return momentum_mass > 0.0 ? std::sqrt(2.0 * kinetic_energy() / momentum_mass) : 0.0;
+    body_motion_.assign(model_.bodies.size(), {});
+    for (std::size_t i = 0; i < model_.size(); ++i) {
+        BodyMotion& body = body_motion_[model_.points.body[i]];
+        body.mass += model_.points.mass[i];
+        body.twice_energy += model_.points.mass[i] * model_.points.velocity[i].squaredNorm();
+    }
+    double fastest = 0.0;
+    for (const BodyMotion& body : body_motion_)
+        if (body.mass > 0.0 && !(body.twice_energy <= fastest * fastest * body.mass)) // not a number is fast
+            fastest = std::sqrt(body.twice_energy / body.mass);
+    return fastest;
 }
 
 } // namespace periporo

@@ -72,7 +72,8 @@ public:
     double residual() const { return state_.residual; }
     /// The force that the residual is relative to, per mass, as a root mean square over the points [m/s2].
     double acceleration_scale() const;
-    /// sqrt(2 E_kin/m) over all points [m/s].
+    /// sqrt(2 E_kin/m) of the body that has most of it: what stands under a heap, however heavy, does not slow it
+    /// [m/s].
     double mean_speed() const;
     std::uint64_t refreshes() const { return state_.refreshes; }
     const ContactForces& contact() const { return contact_; }
@@ -102,6 +103,11 @@ private:
     std::vector<HeldDirection> held_;
     double held_power_ = 0.0; ///< at the last evaluation [W]
     State state_;
+    struct BodyMotion {
+        double mass = 0.0;         ///< [kg]
+        double twice_energy = 0.0; ///< [J]
+    };
+    mutable std::vector<BodyMotion> body_motion_; ///< of mean_speed(), kept for its memory
     PhaseTimes times_;
 };
 

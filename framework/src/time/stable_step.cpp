@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -59,8 +60,9 @@ bool normalize(const Points& points, Vectors& vector)
     return true;
 }
 
-/// M^-1 K u of the elastic tangent.
-void tangent(Model& model, const ForceState& force_state, const Vectors& displacement, Vectors& result)
+/// M^-1 K u of the elastic tangent and what holds the points to the ground.
+void tangent(Model& model, const ForceState& force_state, std::span<const Eigen::Matrix3d> grounded,
+             const Vectors& displacement, Vectors& result)
 {
     std::copy(displacement.begin(), displacement.end(), model.points.velocity.begin());
     model.update_records();
@@ -68,11 +70,17 @@ void tangent(Model& model, const ForceState& force_state, const Vectors& displac
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < model.size(); ++i)
         result[i] = -model.internal_force[i] / model.points.mass[i];
+    if (grounded.empty())
+        return;
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < model.size(); ++i)
+        result[i] += grounded[i] * displacement[i];
 }
 
 } // namespace
 
-double FrequencyEstimate::update(Model& model, const ForceState& force_state, int iterations)
+double FrequencyEstimate::update(Model& model, const ForceState& force_state, int iterations,
+                                 std::span<const Eigen::Matrix3d> grounded)
 {
     const Points& points = model.points;
     velocity_ = points.velocity;
@@ -92,7 +100,7 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, in
     Eigen::Index size = 0;
     while (size < iterations && normalize(points, basis_[static_cast<std::size_t>(size)])) {
         Vectors& image = basis_[static_cast<std::size_t>(size) + 1];
-        tangent(model, force_state, basis_[static_cast<std::size_t>(size)], image);
+        tangent(model, force_state, grounded, basis_[static_cast<std::size_t>(size)], image);
         const double before = std::sqrt(mass_product(points, image, image));
         for (Eigen::Index row = 0; row <= size; ++row) {
             projected(row, size) = mass_product(points, basis_[static_cast<std::size_t>(row)], image);
@@ -121,13 +129,9 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, in
 }
 
 StableStep stable_step(Model& model, const ForceState& force_state, ContactForces& contact, FrequencyEstimate& estimate,
-                       int iterations, double safety, bool damped)
+                       int iterations, double safety, double last_step, bool damped)
 {
     StableStep result;
-    result.frequency = estimate.update(model, force_state, iterations);
-    const ContactBound contact_bound = contact.bound(model);
-    result.contact_frequency = std::sqrt(contact_bound.frequency_squared);
-    result.damping_rate = damped ? contact_bound.damping_rate : 0.0;
     result.wave_limit = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < model.size(); ++i) {
         const Material& material = *model.body_of(i).material;
@@ -135,8 +139,23 @@ StableStep stable_step(Model& model, const ForceState& force_state, ContactForce
         const double speed = std::sqrt((material.bulk_modulus() + 4.0 / 3.0 * material.shear_modulus()) / density);
         result.wave_limit = std::min(result.wave_limit, 1.5 * model.spacing / speed);
     }
-    const double squared = result.frequency * result.frequency + contact_bound.frequency_squared;
-    const double limit = squared > 0.0 ? damped_limit(squared, result.damping_rate) : result.wave_limit;
+    const double damping = damped ? 2.0 / (last_step > 0.0 ? last_step / safety : result.wave_limit) : 0.0;
+    const std::vector<ContactBound>& bounds = contact.bounds(model);
+    std::vector<Eigen::Matrix3d> grounded(model.size());
+    std::ranges::transform(bounds, grounded.begin(), [damping](const ContactBound& bound) -> Eigen::Matrix3d {
+        return bound.stiffness + damping * bound.damping;
+    });
+    const double together = std::pow(estimate.update(model, force_state, iterations, grounded), 2);
+    if (damped)
+        result.damping_rate = ordered_sums<1>(model.size(), [&](std::size_t i, std::array<double, 1>& sum) {
+            sum[0] += model.points.mass[i] * estimate.mode()[i].dot(bounds[i].damping * estimate.mode()[i]);
+        })[0];
+    const double squared = together - damping * result.damping_rate;
+    result.frequency = std::sqrt(std::max(squared, 0.0));
+    // Of a step longer than the last one dashpots take less than was counted, of a shorter one more.
+    double limit = together > 0.0 ? 2.0 / std::sqrt(together) : result.wave_limit;
+    if (damping * limit < 2.0 && squared > 0.0)
+        limit = damped_limit(squared, result.damping_rate);
     result.step = std::min(safety * limit, result.wave_limit);
     return result;
 }

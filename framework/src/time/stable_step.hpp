@@ -8,17 +8,17 @@
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
 
+#include <span>
 #include <vector>
 
 namespace periporo {
 
 /// What bounds the step, and the step taken.
 struct StableStep {
-    double frequency = 0.0;         ///< estimate of the largest angular frequency of the operator [rad/s]
-    double contact_frequency = 0.0; ///< bound from contact [rad/s]
-    double damping_rate = 0.0;      ///< bound of c/m of the dashpots of contacts [1/s]
-    double wave_limit = 0.0;        ///< 1.5 dx/c_p [s]
-    double step = 0.0;              ///< [s]
+    double frequency = 0.0;    ///< estimate of the largest angular frequency of operator and contact together [rad/s]
+    double damping_rate = 0.0; ///< of the dashpots of contacts in that mode [1/s]
+    double wave_limit = 0.0;   ///< 1.5 dx/c_p [s]
+    double step = 0.0;         ///< [s]
 };
 
 /// Largest eigenfrequency of the elastic tangent of the operator, families and images as they are: the highest Ritz
@@ -33,7 +33,10 @@ class FrequencyEstimate {
 public:
     /// Angular frequency [rad/s] after so many evaluations of the operator. Velocities and records of the model are
     /// restored.
-    double update(Model& model, const ForceState& force_state, int iterations);
+    /// @param grounded stiffness of each point against the ground, over its mass, that is added to the operator [1/s2];
+    /// empty: none
+    double update(Model& model, const ForceState& force_state, int iterations,
+                  std::span<const Eigen::Matrix3d> grounded = {});
 
     const std::vector<Vector3>& mode() const { return mode_; }
     void set_mode(std::vector<Vector3> mode) { mode_ = std::move(mode); }
@@ -45,11 +48,15 @@ private:
     std::vector<Vector3> velocity_;
 };
 
-/// step = min(safety * limit, 1.5 dx/c_p) with the limit of a damped oscillator at omega^2 + omega_contact^2, which
-/// bounds operator and contact together, and c_p = sqrt((K + 4G/3)/rho), the fastest of the bodies.
+/// step = min(safety * limit, 1.5 dx/c_p), with c_p = sqrt((K + 4G/3)/rho), the fastest of the bodies. Limit: with
+/// dashpots a step dt is stable when no eigenvalue of dt^2 K + 2 dt C is above 4 (see damped_limit()). The highest mode
+/// of K + 2 C/dt is sought at the last step dt, with what contact adds as bounds of each point, and the limit is that
+/// of an oscillator with the stiffness and damping of this mode. Contact shortens the step only where the operator is
+/// stiff as well.
+/// @param last_step 0 at the beginning [s]
 /// @param damped whether the dashpots of contacts act
 StableStep stable_step(Model& model, const ForceState& force_state, ContactForces& contact, FrequencyEstimate& estimate,
-                       int iterations, double safety, bool damped);
+                       int iterations, double safety, double last_step, bool damped);
 
 /// The longest step of u" + c u' + omega^2 u = 0 in leapfrog steps whose damping force takes the last mid-step
 /// velocity: omega^2 dt^2 + 2 c dt = 4, from the root -1 of z^2 - (2 - omega^2 dt^2 - c dt) z + 1 - c dt. 2/omega

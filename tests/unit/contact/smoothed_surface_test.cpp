@@ -244,7 +244,7 @@ TEST_CASE("friction stops a slow grain within a step, never throws it back, and 
     }
 }
 
-TEST_CASE("the bound on the frequency covers a crowd on the surface, and not by much")
+TEST_CASE("the bounds of points cover a crowd on the surface, and not by much")
 {
     for (const double apart : {4.0, 1.0, 0.6, 0.4}) { // grains from each other, in spacings
         CAPTURE(apart);
@@ -256,25 +256,36 @@ TEST_CASE("the bound on the frequency covers a crowd on the surface, and not by 
         ground.put_all(places);
         ContactForces contact = on_surface(0.0);
         contact.find_candidates(ground.model, 0.1 * dx);
+        const std::vector<ContactBound>& bounds = contact.bounds(ground.model);
 
-        // the square of the largest frequency, from all contacts b_s = (1 on the grain, -w_p on the surface)
+        // With K = k sum b b^T over all contacts b = (n on the grain, -w_p n on the surface), and blocks D, the largest
+        // eigenvalue of D^-1 K, sought as that of k b_s^T D^-1 b_t.
         SmoothedSurface surface;
         surface.find(ground.model, 0, 1, 0.5 * dx, 0.1 * dx);
         REQUIRE(surface.near().size() == places.size());
-        Eigen::MatrixXd contacts = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(places.size()),
-                                                         static_cast<Eigen::Index>(ground.model.size()));
-        for (std::size_t n = 0; n < places.size(); ++n) {
+        const auto n = static_cast<Eigen::Index>(3 * ground.model.size());
+        const auto count = static_cast<Eigen::Index>(places.size());
+        Eigen::MatrixXd contacts = Eigen::MatrixXd::Zero(n, count);
+        for (Eigen::Index s = 0; s < count; ++s) {
             Support support;
-            REQUIRE(surface.find_support(ground.model, n, support));
-            contacts(static_cast<Eigen::Index>(n), surface.near()[n]) = 1.0;
+            REQUIRE(surface.find_support(ground.model, static_cast<std::size_t>(s), support));
+            contacts.block<3, 1>(3 * surface.near()[static_cast<std::size_t>(s)], s) = support.normal;
             for (std::size_t m = 0; m < support.records.size(); ++m)
-                contacts(static_cast<Eigen::Index>(n), support.records[m]) = -support.weights[m];
+                contacts.block<3, 1>(3 * support.records[m], s) = -support.weights[m] * support.normal;
         }
-        const double mass = ground.model.points.mass[0];
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(500.0 / mass * contacts * contacts.transpose());
-        const double largest = solver.eigenvalues().maxCoeff();
-        const double bound = contact.bound(ground.model).frequency_squared;
-        CHECK(bound >= largest * (1.0 - 1e-12));
-        CHECK(bound <= 1.6 * largest);
+        Eigen::MatrixXd scaled = contacts;
+        double largest_bound = 0.0;
+        for (Eigen::Index i = 0; i < n / 3; ++i) {
+            const Eigen::Matrix3d& block = bounds[static_cast<std::size_t>(i)].stiffness;
+            largest_bound = std::max(largest_bound, block.norm());
+            scaled.middleRows<3>(3 * i) =
+                block.completeOrthogonalDecomposition().pseudoInverse() * contacts.middleRows<3>(3 * i);
+        }
+        const double per_mass = 500.0 / ground.model.points.mass[0];
+        const auto largest = [](const Eigen::MatrixXd& matrix) {
+            return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().maxCoeff();
+        };
+        CHECK(per_mass * largest(contacts.transpose() * scaled) <= 1.0 + 1e-9);
+        CHECK(largest_bound <= 2.5 * per_mass * largest(contacts.transpose() * contacts));
     }
 }

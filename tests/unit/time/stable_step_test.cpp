@@ -57,6 +57,36 @@ struct BlockInHighestMode {
     double omega = 0.0;
 };
 
+/// The lowest layer of a lattice on springs and dashpots that push and pull.
+class Bedding : public Contact {
+public:
+    Bedding(double stiffness, double damping) : stiffness_(stiffness), damping_(damping) {}
+    void scale(const ContactScale&) override {}
+    double cutoff() const override { return dx; }
+    double friction() const override { return 0.0; }
+    void evaluate(std::span<const ContactPair> pairs, std::span<ContactResponse> responses) const override
+    {
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            const double overlap = 0.5 * dx - pairs[p].distance;
+            const double braking = damping_ * pairs[p].approach_speed;
+            responses[p] = {stiffness_ * overlap + braking, stiffness_, 0.5 * stiffness_ * overlap * overlap, braking};
+        }
+    }
+    const RigidSurface* surface() const override { return &plane_; }
+
+private:
+    struct Plane : RigidSurface {
+        double distance(const Vector3& position, Vector3& normal) const override
+        {
+            normal = Vector3::UnitZ();
+            return position.z();
+        }
+    };
+    double stiffness_;
+    double damping_;
+    Plane plane_;
+};
+
 } // namespace
 
 TEST_CASE("the largest frequency of the dense operator is found, from below")
@@ -117,6 +147,46 @@ TEST_CASE("a block in its highest mode settles under local damping at the step t
     };
     CHECK_FALSE(grows(0.95));
     CHECK(grows(1.1));
+}
+
+TEST_CASE(
+    "a block on dashpots is stable at the step that comes out for both, not much beyond, nor without counting them")
+{
+    struct Ground {
+        double stiffness; // over that of the operator at its highest frequency
+        double damping;   // c/m over that frequency
+    };
+    for (const Ground& ground : {Ground{0.3, 0.0}, Ground{0.1, 0.8}, Ground{0.0, 4.0}}) {
+        CAPTURE(ground.stiffness);
+        CAPTURE(ground.damping);
+        const auto growth = [&](double factor) {
+            BlockInHighestMode block("constant");
+            const double mass = block.model.points.mass[0];
+            block.contact =
+                ContactForces({{std::make_shared<Bedding>(ground.stiffness * mass * std::pow(block.omega, 2),
+                                                          ground.damping * mass * block.omega),
+                                {0}}});
+            block.contact.find_candidates(block.model, 0.1 * dx);
+            FrequencyEstimate estimate;
+            double step = 0.0;
+            for (int renewal = 0; renewal < 6; ++renewal)
+                step = stable_step(block.model, *block.force, block.contact, estimate, 40, 1.0, step, true).step;
+            CHECK(step < 0.97 * 2.0 / block.omega);
+            for (std::size_t i = 0; i < block.model.size(); ++i) // the lowest layer meets the ground
+                if (block.model.points.position[i].z() < dx)
+                    block.model.points.velocity[i].z() += 1e-9 * (i % 2 == 0 ? 1.0 : -1.0);
+            block.dynamics.start();
+            const double first = block.dynamics.mean_speed();
+            double largest = 0.0;
+            for (int n = 0; n < 120; ++n) {
+                block.dynamics.step({factor * step, MaterialResponse::full, 0.0});
+                largest = std::max(largest, block.dynamics.mean_speed());
+            }
+            return largest / first;
+        };
+        CHECK(growth(0.98) < 3.0);
+        CHECK_FALSE(growth(1.15) < 10.0);
+    }
 }
 
 TEST_CASE("a damped oscillator in leapfrog steps is stable just below the limit and not just above it")
