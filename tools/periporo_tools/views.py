@@ -31,8 +31,9 @@ def colour_values(snapshot: Snapshot) -> np.ndarray:
 
 
 def section(axes: Axes, snapshot: Snapshot, spacing: float, symmetry: frozenset[str], scale: ScalarMappable) -> None:
-    """The points within one spacing of the plane y = 0, drawn to scale in mm."""
-    beside = np.abs(snapshot.position[:, 1]) <= 1.01 * spacing
+    """The points nearer to the plane y = 0 than 1.5 spacings, drawn to scale in mm: of a lattice the first row. Where a
+    flow spreads sideways it leaves a thinner slice, which then shows gaps that are not there."""
+    beside = np.abs(snapshot.position[:, 1]) < 1.49 * spacing
     position, values = mirrored(
         snapshot.position[beside], colour_values(snapshot)[beside], "x" if "x" in symmetry else ""
     )
