@@ -20,6 +20,9 @@ constexpr double shadow_cosine = 0.5;  ///< "above" is within 60 degrees of the 
 /// there the body ends.
 constexpr double end_of_surface = 0.9;
 constexpr double singular_fit = 1e-6; ///< ratio of the pivots below which the points of a fit lie on one line
+/// Sum of |w| from which a fit leans out beyond its points: 1 inside a surface, 2 at half a spacing outside the last
+/// row. Three points almost in a row at a rim once bore a reaction with weights of thousands: no step is stable then.
+constexpr double largest_lever = 3.0;
 
 /// Smooth and zero from distance 1 on.
 double bell(double squared_distance)
@@ -138,10 +141,14 @@ bool SmoothedSurface::find_support(const Model& model, std::size_t n, Support& s
         return false;
     const Vector3 coefficients = solver.solve(Vector3::UnitX());
     Vector3 foot = Vector3::Zero();
+    double weights = 0.0;
     for (std::size_t m = 0; m < support.records.size(); ++m) {
         support.weights[m] *= coefficients.dot(features(support.records[m]));
+        weights += std::abs(support.weights[m]);
         foot += support.weights[m] * model.records[support.records[m]].x();
     }
+    if (!(weights < largest_lever))
+        return false;
     support.distance = (x - foot).dot(support.normal) - 0.5 * model.spacing;
     return true;
 }

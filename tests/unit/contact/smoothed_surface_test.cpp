@@ -139,6 +139,34 @@ TEST_CASE("the surface bears a grain above its last points, and not one a spacin
     CHECK_FALSE(touches(0.5 * side * dx + 0.5 * dx));
 }
 
+TEST_CASE("nothing leans on a rim that is almost straight with weights beyond all measure")
+{
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<double> beside(-0.5, 1.5);
+    std::uniform_real_distribution<double> along(-4.0, 4.0);
+    std::uniform_real_distribution<double> above(-0.3, 0.5);
+    int borne = 0;
+    double largest = 0.0;
+    for (const double jitter : {0.003, 0.01, 0.03}) {
+        Ground ground(Eigen::Isometry3d::Identity(), jitter);
+        SmoothedSurface surface;
+        for (int n = 0; n < 400; ++n) {
+            ground.put(dx * Vector3(0.5 * side + beside(generator), along(generator), above(generator)));
+            surface.find(ground.model, 0, 1, 0.5 * dx, 0.1 * dx);
+            Support support;
+            if (surface.near().empty() || !surface.find_support(ground.model, 0, support))
+                continue;
+            ++borne;
+            double weights = 0.0;
+            for (const double weight : support.weights)
+                weights += std::abs(weight);
+            largest = std::max(largest, weights);
+        }
+    }
+    CHECK(borne >= 300);
+    CHECK(largest < 3.0);
+}
+
 TEST_CASE("forces on an uneven surface have no resultant and no moment")
 {
     Ground ground(some_frame(), 0.2);
