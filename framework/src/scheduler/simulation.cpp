@@ -299,9 +299,10 @@ bool Simulation::dynamic(const StageDescription& stage)
                                [&] { outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name); });
         progress_.update([&] { return stage_line((at_.time - at_.stage_start) / stage.duration); });
         if (stage.rest_speed) {
-            at_.moved = at_.moved || dynamics_.mean_speed() > 2.0 * *stage.rest_speed;
+            const double speed = dynamics_.mean_speed();
+            at_.moved = at_.moved || speed > 2.0 * *stage.rest_speed;
             const bool may_end = at_.moved ? water_.settled() : at_.time > stands_from;
-            if (may_end && dynamics_.mean_speed() < *stage.rest_speed)
+            if (may_end && speed < *stage.rest_speed)
                 break;
         }
         if (stop_here())
