@@ -208,6 +208,18 @@ class Pages(unittest.TestCase):
         self.assertEqual(changed, text[:-len("old\n<!-- end -->")] + "new\n<!-- end -->")
         self.assertEqual(names, ["b"])
 
+    def test_tables_and_pictures_of_the_small_variant_have_places_of_their_own(self):
+        text = "<!-- table: a -->\nfull\n<!-- end -->\n<!-- table: small_a -->\nold\n<!-- end -->\n"
+        with tempfile.TemporaryDirectory() as folder:
+            there = Path(folder)
+            (there / "page.md").write_text(text + "![f](pictures/one.png) ![s](pictures/small_one.png)\n")
+            Image.new("RGB", (4, 4)).save(there / "one.png")
+            changes = page.update(there / "page.md", {"a": "new"}, ["a"], [there / "one.png"], small=True)
+            self.assertEqual(changes.tables, ["small_a"])
+            self.assertTrue((there / "page.md").read_text().startswith(text.replace("old", "new")))
+            self.assertEqual([path.name for path in (there / "pictures").iterdir()], ["small_one.png"])
+            self.assertEqual(changes.missing, ["one.png"])
+
     def test_a_page_that_is_not_there_says_what_marks_a_table(self):
         with self.assertRaisesRegex(SweepError, "<!-- table: NAME -->"):
             page.update(Path("/nowhere/README.md"), {}, [], [])

@@ -47,7 +47,8 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--small", action="store_true", help="the small variant, with results of its own")
     parser.add_argument("--draw", action="store_true", help="run nothing; draw what is there (all sweeps unless named)")
     parser.add_argument("--page", action="store_true",
-                        help="write tables and pictures into README.md beside the file of sweeps")
+                        help="write tables and pictures into README.md beside the file of sweeps; those of the small"
+                        " variant have names with small_ before them")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers for machines")
     parser.add_argument("--out", type=Path, metavar="DIR",
                         help="where results go (results/reproduce, small: results/reproduce_small)")
@@ -138,7 +139,7 @@ def _show(book: Book, sweeps: list[Sweep], runs: dict[str, list[Run]], options: 
     if options.page:
         known = [sweep.name for sweep in book.sweeps] + [STATEMENTS] * any(sweep.statements for sweep in book.sweeps)
         target = book.path.parent / "README.md"
-        changes = page.update(target, written, known, pictures)
+        changes = page.update(target, written, known, pictures, book.small)
         print(f"{target}: {len(changes.tables)} tables and {len(changes.pictures)} pictures")
         for name in changes.missing:
             _say(f"{target} shows pictures/{name}, which is not there and no run has drawn")

@@ -18,6 +18,7 @@ from periporo_tools.reproduction.sweeps import SweepError
 _BEGIN = re.compile(r"<!-- table: (\S+) -->")
 _END = "<!-- end -->"
 _PICTURE = re.compile(r"!\[[^\]]*\]\(pictures/([^)\s]+\.png)\)|<img[^>]*src=\"pictures/([^\"]+\.png)\"")
+SMALL = "small_"  # before the names of tables and pictures of the small variant, so that a page can show both
 _COLOURS = 128
 _LARGEST = 300_000  # bytes of a picture in the repository
 
@@ -72,11 +73,12 @@ def small_png(source: Path, target: Path) -> None:
     os.replace(aside, target)
 
 
-def update(page: Path, tables: dict[str, str], known: list[str], pictures: list[Path]) -> Changes:
+def update(page: Path, tables: dict[str, str], known: list[str], pictures: list[Path], small: bool = False) -> Changes:
     """Writes tables and pictures into the page.
 
     @param known names of all tables there are, those that are not given included
     @param pictures those that can be shown
+    @param small whether tables and pictures are those of the small variant
     @throws SweepError when the page is not there or has a mistake; then nothing is changed
     """
     try:
@@ -84,9 +86,11 @@ def update(page: Path, tables: dict[str, str], known: list[str], pictures: list[
     except OSError as error:
         raise SweepError(f"{page}: the page cannot be read ({error.strerror}); it marks its tables with"
                          f" <!-- table: NAME --> ... {_END}") from error
-    changed, names = with_tables(text, tables, known, page)
+    variant = SMALL if small else ""
+    given = {variant + name: table for name, table in tables.items()}
+    changed, names = with_tables(text, given, [*known, *(SMALL + name for name in known)], page)
     changes = Changes(names)
-    drawn = {picture.name: picture for picture in pictures}
+    drawn = {variant + picture.name: picture for picture in pictures}
     for found in _PICTURE.finditer(changed):
         name = found[1] or found[2]
         target = page.parent / "pictures" / name
