@@ -104,19 +104,24 @@ void ContactForces::add_smoothed(const Model& model, std::size_t assignment, dou
 
 void ContactForces::bound_supported(const Model& model, std::size_t assignment)
 {
-    // (u_i - sum w_p u_p) . n is, squared, at most 2 (u_i . n)^2 + 2 sum |w| sum |w_p| (u_p . n)^2.
+    // (u_i - sum w_p u_p) . n is, squared, at most 2 (u_i . n)^2 + 2 sum |w| sum |w_p| (u_p . n)^2. What the surface is
+    // to a point that stands on it alone is never lighter than what it is in a crowd, and no dashpot is weaker there.
     const Contact& law = *assignments_[assignment].law;
     find_supported_points(model, assignment, about_to_touch * law.cutoff());
     for (std::size_t s = 0; s < supported_count_; ++s) {
         const auto& [i, support] = supported_[s];
         const double mass = model.points.mass[i];
-        const Carrier below = carrier(model, support);
-        const ContactSlopes both =
-            slopes(law, {0.0, 0.0, model.points.volume[i], below.volume, mass, 1.0 / below.mobility});
-        add(bounds_[i], support.normal, both, 2.0 / mass);
         double weights = 0.0;
-        for (const double weight : support.weights)
-            weights += std::abs(weight);
+        Carrier alone;
+        for (std::size_t m = 0; m < support.records.size(); ++m) {
+            const std::uint32_t p = model.families.parent(support.records[m]);
+            weights += std::abs(support.weights[m]);
+            alone.volume += support.weights[m] * model.points.volume[p];
+            alone.mobility += support.weights[m] * support.weights[m] / model.points.mass[p];
+        }
+        const ContactSlopes both =
+            slopes(law, {0.0, 0.0, model.points.volume[i], alone.volume, mass, 1.0 / alone.mobility});
+        add(bounds_[i], support.normal, both, 2.0 / mass);
         for (std::size_t m = 0; m < support.records.size(); ++m) {
             const std::uint32_t p = model.families.parent(support.records[m]);
             const Isometry& isometry = model.isometries[model.families.isometry(support.records[m])];
