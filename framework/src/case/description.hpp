@@ -26,6 +26,9 @@ struct DiscretizationDescription {
     double horizon_ratio = 3.015;        ///< delta/dx [-]
     std::string refresh = "when_needed"; ///< or "every_step"
     double skin_ratio = 0.1;             ///< relative displacement over dx after which families are found anew [-]
+
+    double horizon() const { return horizon_ratio * spacing; } ///< [m]
+    double skin() const { return skin_ratio * spacing; }       ///< [m]
 };
 
 struct OperatorDescription {

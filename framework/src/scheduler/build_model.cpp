@@ -225,7 +225,7 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
     BuiltModel built;
     Model& model = built.model;
     model.spacing = description.discretization.spacing;
-    model.horizon = description.discretization.horizon_ratio * model.spacing;
+    model.horizon = description.discretization.horizon();
     model.gravity = description.gravity;
     Geometries geometries(description, registry);
     built.water = Water(description, registry);

@@ -16,7 +16,7 @@ std::string dispersion_table(const CaseDescription& description, const PluginReg
     const double spacing = description.discretization.spacing;
     const LatticeMedium medium{make_material(description, body, registry),
                                mixture_density(material_of(description, body), 0.0), spacing,
-                               description.discretization.horizon_ratio * spacing};
+                               description.discretization.horizon()};
     std::string table = "force_state,influence,direction,wave,wave_number_times_spacing,relative_phase_speed\n";
     for (const std::string& state : force_state_names())
         for (const std::string& influence : influence_names()) {

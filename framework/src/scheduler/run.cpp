@@ -80,7 +80,7 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     find_first_families(model, *force_state);
     FrequencyEstimate frequency;
     ContactForces contact(std::move(built.contacts));
-    contact.find_candidates(model, description.discretization.skin_ratio * description.discretization.spacing);
+    contact.find_candidates(model, description.discretization.skin());
     const StableStep stable =
         stable_step(model, *force_state, contact, frequency, 40, description.time.safety, 0.0, true);
     const double step = description.time.step.value_or(stable.step);

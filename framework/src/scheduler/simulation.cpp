@@ -7,6 +7,7 @@
 #include "scheduler/build_model.hpp"
 #include "scheduler/held_points.hpp"
 #include "scheduler/provenance.hpp"
+#include "scheduler/rest.hpp"
 #include "scheduler/summary.hpp"
 #include "scheduler/vertical_stress.hpp"
 
@@ -27,8 +28,7 @@ constexpr double far_overlap = 2.0; // over the reach of a contact: a point lies
 
 DynamicsSettings settings_of(const CaseDescription& description)
 {
-    return {description.discretization.skin_ratio * description.discretization.spacing,
-            description.discretization.refresh == "every_step"};
+    return {description.discretization.skin(), description.discretization.refresh == "every_step"};
 }
 
 bool is_quasi_static(const StageDescription& stage)
@@ -36,30 +36,14 @@ bool is_quasi_static(const StageDescription& stage)
     return stage.type == "quasi_static";
 }
 
-/// Time of a free fall over the height that the model had at the start, (2 h/|g|)^(1/2); without gravity infinite [s].
-double fall_time(const Model& model, const Vector3& gravity)
-{
-    const double g = gravity.norm();
-    if (!(g > 0.0))
-        return INFINITY;
-    double lowest = INFINITY, highest = -INFINITY;
-    for (const Vector3& x : model.points.initial_position) {
-        const double height = -x.dot(gravity) / g;
-        lowest = std::min(lowest, height);
-        highest = std::max(highest, height);
-    }
-    return std::sqrt(2.0 * (highest - lowest) / g);
-}
-
 } // namespace
 
 Simulation::Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
                        std::shared_ptr<spdlog::logger> log)
     : description_(description), registry_(registry), options_(options), log_(std::move(log)),
-      force_state_(make_force_state(
-          description.operators.force_state,
-          Influence::by_name(description.operators.influence,
-                             description.discretization.horizon_ratio * description.discretization.spacing))),
+      force_state_(
+          make_force_state(description.operators.force_state,
+                           Influence::by_name(description.operators.influence, description.discretization.horizon()))),
       contact_(std::vector<ContactAssignment>{}), dynamics_(model_, *force_state_, contact_, settings_of(description)),
       outputs_(description, registry), progress_(options.quiet), started_(std::chrono::steady_clock::now()),
       last_checkpoint_(started_)
@@ -288,10 +272,7 @@ bool Simulation::quasi_static(const StageDescription& stage)
 bool Simulation::dynamic(const StageDescription& stage)
 {
     const double end = at_.stage_start + stage.duration;
-    // What starts from rest comes to rest only after it has moved; but what has not got going while it could have
-    // fallen over its height, with nothing changing about it, stands.
-    const double stands_from =
-        is_driven(stage) ? INFINITY : at_.stage_start + water_.last_change() + fall_time(model_, description_.gravity);
+    const double stands_from = at_.stage_start + water_.last_change() + time_to_get_going(model_, description_, stage);
     while (at_.time < end) {
         take_step({});
         at_.time += at_.time_step;
@@ -299,6 +280,7 @@ bool Simulation::dynamic(const StageDescription& stage)
                                [&] { outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name); });
         progress_.update([&] { return stage_line((at_.time - at_.stage_start) / stage.duration); });
         if (stage.rest_speed) {
+            // What starts from rest comes to rest only after it has moved, unless it stands.
             const double speed = dynamics_.mean_speed();
             at_.moved = at_.moved || speed > 2.0 * *stage.rest_speed;
             const bool may_end = at_.moved ? water_.settled() : at_.time > stands_from;
@@ -309,14 +291,6 @@ bool Simulation::dynamic(const StageDescription& stage)
             return false;
     }
     return true;
-}
-
-bool Simulation::is_driven(const StageDescription& stage) const
-{
-    return std::ranges::any_of(model_.obstacles, [](const Obstacle& o) { return !o.velocity.isZero(0.0); }) ||
-           std::ranges::any_of(description_.held_regions, [&stage](const HeldRegionDescription& region) {
-               return !region.velocity.isZero(0.0) && applies_in(region.stages, stage);
-           });
 }
 
 std::string Simulation::stage_line(double fraction) const

@@ -45,7 +45,6 @@ private:
     bool quasi_static(const StageDescription& stage);
     bool dynamic(const StageDescription& stage);
     /// Does an obstacle or a region of points move as the case says?
-    bool is_driven(const StageDescription& stage) const;
     void renew_step(int iterations);
     void take_step(const StepOptions& options);
     void check_points();
