@@ -92,10 +92,12 @@ void sum_sub_horizons(const SubHorizonView& sub_horizons, BondRows<values, tail>
             for (const auto* entering = member; entering != leaving; ++entering) {
                 const std::size_t in = entering[0];
                 const std::size_t out = entering[step.pairs];
+                const double* const entered = feature + in * values;
+                const double* const left = feature + out * values;
 #pragma GCC unroll 8
                 for (std::size_t v = 0; v < packs; ++v) {
-                    enter[v] += load_pack(feature + in * values + v * pack_width);
-                    leave[v] += load_pack(feature + out * values + v * pack_width);
+                    enter[v] += load_pack(entered + v * pack_width);
+                    leave[v] += load_pack(left + v * pack_width);
                 }
                 if constexpr (tail) {
                     enter_tail += feature_tail[in];
