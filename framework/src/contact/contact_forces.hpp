@@ -120,9 +120,10 @@ private:
     /// What a smoothed surface is to a point that stands on it.
     struct Carrier {
         double volume = 0.0;   ///< [m3]
-        double mobility = 0.0; ///< 1/mass, when all points that stand on it are pushed alike [1/kg]
+        double mobility = 0.0; ///< 1/mass, when all points that press on it are pushed alike [1/kg]
     };
-    Carrier carrier(const Model& model, const Support& support) const;
+    /// @param crowd for every point the sum of all |w| that press on it; empty: nothing else does
+    static Carrier carrier(const Model& model, const Support& support, std::span<const double> crowd);
 
     void find_pairs(const Model& model, std::size_t assignment, double slack);
     void find_near_surfaces(const Model& model);

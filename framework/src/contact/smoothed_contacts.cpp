@@ -43,13 +43,14 @@ void ContactForces::find_supported_points(const Model& model, std::size_t assign
     }
 }
 
-ContactForces::Carrier ContactForces::carrier(const Model& model, const Support& support) const
+ContactForces::Carrier ContactForces::carrier(const Model& model, const Support& support, std::span<const double> crowd)
 {
     Carrier carrier;
     for (std::size_t m = 0; m < support.records.size(); ++m) {
         const std::uint32_t p = model.families.parent(support.records[m]);
         carrier.volume += support.weights[m] * model.points.volume[p];
-        carrier.mobility += std::abs(support.weights[m]) * shared_weight_[p] / model.points.mass[p];
+        const double own = std::abs(support.weights[m]);
+        carrier.mobility += own * (crowd.empty() ? own : crowd[p]) / model.points.mass[p];
     }
     return carrier;
 }
@@ -64,7 +65,7 @@ void ContactForces::press(const Model& model, std::size_t assignment, const Supp
     Vector3 surface_velocity = Vector3::Zero();
     for (std::size_t m = 0; m < support.records.size(); ++m)
         surface_velocity += support.weights[m] * model.records[support.records[m]].v();
-    const Carrier below = carrier(model, support);
+    const Carrier below = carrier(model, support, shared_weight_);
     const Vector3 relative = model.records[i].v() - surface_velocity;
     const double opening = relative.dot(support.normal);
     const ContactPair pair{support.distance, -approach_factor_ * opening, points.volume[i], below.volume,
@@ -111,17 +112,13 @@ void ContactForces::bound_supported(const Model& model, std::size_t assignment)
     for (std::size_t s = 0; s < supported_count_; ++s) {
         const auto& [i, support] = supported_[s];
         const double mass = model.points.mass[i];
-        double weights = 0.0;
-        Carrier alone;
-        for (std::size_t m = 0; m < support.records.size(); ++m) {
-            const std::uint32_t p = model.families.parent(support.records[m]);
-            weights += std::abs(support.weights[m]);
-            alone.volume += support.weights[m] * model.points.volume[p];
-            alone.mobility += support.weights[m] * support.weights[m] / model.points.mass[p];
-        }
+        const Carrier alone = carrier(model, support, {});
         const ContactSlopes both =
             slopes(law, {0.0, 0.0, model.points.volume[i], alone.volume, mass, 1.0 / alone.mobility});
         add(bounds_[i], support.normal, both, 2.0 / mass);
+        double weights = 0.0;
+        for (const double weight : support.weights)
+            weights += std::abs(weight);
         for (std::size_t m = 0; m < support.records.size(); ++m) {
             const std::uint32_t p = model.families.parent(support.records[m]);
             const Isometry& isometry = model.isometries[model.families.isometry(support.records[m])];

@@ -11,6 +11,7 @@
 namespace periporo {
 namespace {
 
+/// Does an obstacle or a region of points move as the case says?
 bool is_driven(const Model& model, const CaseDescription& description, const StageDescription& stage)
 {
     return std::ranges::any_of(model.obstacles, [](const Obstacle& o) { return !o.velocity.isZero(0.0); }) ||

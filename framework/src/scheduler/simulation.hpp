@@ -44,7 +44,6 @@ private:
     /// Returns false when interrupted.
     bool quasi_static(const StageDescription& stage);
     bool dynamic(const StageDescription& stage);
-    /// Does an obstacle or a region of points move as the case says?
     void renew_step(int iterations);
     void take_step(const StepOptions& options);
     void check_points();

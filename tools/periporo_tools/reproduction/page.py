@@ -18,7 +18,7 @@ from periporo_tools.reproduction.sweeps import SweepError
 _BEGIN = re.compile(r"<!-- table: (\S+) -->")
 _END = "<!-- end -->"
 _PICTURE = re.compile(r"!\[[^\]]*\]\(pictures/([^)\s]+\.png)\)|<img[^>]*src=\"pictures/([^\"]+\.png)\"")
-SMALL = "small_"  # before the names of tables and pictures of the small variant, so that a page can show both
+_SMALL = "small_"  # before the names of tables and pictures of the small variant, so that a page can show both
 _COLOURS = 128
 _LARGEST = 300_000  # bytes of a picture in the repository
 
@@ -86,9 +86,9 @@ def update(page: Path, tables: dict[str, str], known: list[str], pictures: list[
     except OSError as error:
         raise SweepError(f"{page}: the page cannot be read ({error.strerror}); it marks its tables with"
                          f" <!-- table: NAME --> ... {_END}") from error
-    variant = SMALL if small else ""
+    variant = _SMALL if small else ""
     given = {variant + name: table for name, table in tables.items()}
-    changed, names = with_tables(text, given, [*known, *(SMALL + name for name in known)], page)
+    changed, names = with_tables(text, given, [*known, *(_SMALL + name for name in known)], page)
     changes = Changes(names)
     drawn = {variant + picture.name: picture for picture in pictures}
     for found in _PICTURE.finditer(changed):
