@@ -88,6 +88,7 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     archive.put("surface_room", std::span<const double>(parts.contact.rooms()));
     archive.put("deepest_overlap", std::span<const double>(parts.contact.deepest_overlap()));
     archive.put("frequency_mode", flat(parts.frequency.mode()));
+    archive.put("mass", std::span<const double>(points.mass));
     archive.put("suction", std::span<const double>(points.suction));
     archive.put("saturation", std::span<const double>(points.saturation));
     archive.put("suction_before", std::span<const double>(parts.water.suction_before));
@@ -151,6 +152,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     copy_checked(vectors(archive.reals("refresh_position")), points.position, "position");
     copy_checked(archive.reals("volume"), points.volume, "volume");
     copy_checked(archive.reals("jacobian"), points.jacobian, "J");
+    copy_checked(archive.reals("mass"), points.mass, "mass");
     copy_checked(archive.reals("suction"), points.suction, "suction");
     copy_checked(archive.reals("saturation"), points.saturation, "saturation");
     parts.water = {archive.reals("suction_before"), archive.reals("saturation_before"), archive.reals("suction_after"),

@@ -26,7 +26,7 @@ struct Points {
     std::vector<double> volume;            ///< current V = V0 min(J, largest_volume_ratio) [m3]
     std::vector<double> initial_volume;    ///< V0 [m3]
     std::vector<double> jacobian;          ///< J, from J' = J tr L [-]
-    std::vector<double> mass;              ///< constant [kg]
+    std::vector<double> mass;              ///< of grains and water; changes with the water only [kg]
     std::vector<double> suction;           ///< s >= 0 [Pa]
     std::vector<double> saturation;        ///< S_r [-]
     std::vector<std::uint32_t> body;       ///< index of the body

@@ -154,7 +154,7 @@ void Simulation::begin_stage()
     }
     dynamics_.hold(held_directions(model_, description_, held_regions_, stage));
     water_.begin_stage(model_, stage);
-    water_.follow(model_, 0.0);
+    dynamics_.book(water_.follow(model_, 0.0));
     dynamics_.start();
     renew_step(first_iterations);
     if (!is_quasi_static(stage) && !at_.ledger_open) {
@@ -235,7 +235,7 @@ void Simulation::take_step(const StepOptions& options)
         dynamics_.times().time(Phase::step_estimate, [&] { renew_step(later_iterations); });
     StepOptions with_step = options;
     with_step.time_step = at_.time_step;
-    water_.follow(model_, at_.time + at_.time_step - at_.stage_start);
+    dynamics_.book(water_.follow(model_, at_.time + at_.time_step - at_.stage_start));
     dynamics_.step(with_step);
     ++at_.stage_step;
     ++at_.step;

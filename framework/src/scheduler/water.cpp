@@ -5,8 +5,10 @@
 
 #include "scheduler/build_model.hpp"
 #include "scheduler/suction_field.hpp"
+#include "time/ordered_sum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -36,8 +38,9 @@ bool is_dry(double suction, double saturation)
 Water::Water(const CaseDescription& description, const PluginRegistry& registry) : description_(&description)
 {
     for (const BodyDescription& body : description.bodies) {
-        const std::optional<PluginChoice>& curve = material_of(description, body).retention;
-        bodies_.emplace_back();
+        const MaterialDescription& material = material_of(description, body);
+        const std::optional<PluginChoice>& curve = material.retention;
+        bodies_.push_back({&material, nullptr, 0.0});
         if (!curve)
             continue;
         bodies_.back().curve = registry.make_retention(curve->name, curve->parameters);
@@ -99,26 +102,46 @@ void Water::restore(WaterCourse course, const StageDescription& stage)
     set_durations(stage);
 }
 
-void Water::follow(Model& model, double time)
+double Water::BodyWater::way(double time) const
+{
+    return over > 0.0 ? std::min(1.0, time / over) : 1.0;
+}
+
+double Water::saturation_on_the_way(const BodyWater& body, std::size_t point, double way, double porosity) const
+{
+    const double before = course_.saturation_before[point], after = course_.saturation_after[point];
+    const bool was_dry = is_dry(course_.suction_before[point], before);
+    const bool gets_dry = is_dry(course_.suction_after[point], after);
+    if ((was_dry && gets_dry) || (was_dry && way == 0.0) || (gets_dry && way == 1.0))
+        return 0.0;
+    if (!body.curve)
+        return std::lerp(before, after, way);
+    return body.curve->saturation(std::lerp(course_.suction_before[point], course_.suction_after[point], way),
+                                  porosity);
+}
+
+ArrivedEnergy Water::follow(Model& model, double time)
 {
     if (settled_ && !(follows_porosity_ && model.wet))
-        return;
+        return {};
+    const bool changes = !settled_;
     settled_ = time >= longest_;
     Points& points = model.points;
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto [kinetic, gravity] = ordered_sums<2>(points.size(), [&](std::size_t i, std::array<double, 2>& sum) {
         const BodyWater& body = bodies_[points.body[i]];
-        const double way = body.over > 0.0 ? std::min(1.0, time / body.over) : 1.0;
+        const double way = body.way(time);
         points.suction[i] = std::lerp(course_.suction_before[i], course_.suction_after[i], way);
-        const bool was_dry = is_dry(course_.suction_before[i], course_.saturation_before[i]);
-        const bool gets_dry = is_dry(course_.suction_after[i], course_.saturation_after[i]);
-        if ((was_dry && gets_dry) || (was_dry && way == 0.0) || (gets_dry && way == 1.0))
-            points.saturation[i] = 0.0;
-        else if (body.curve)
-            points.saturation[i] = body.curve->saturation(points.suction[i], porosity_of(model, i));
-        else
-            points.saturation[i] = std::lerp(course_.saturation_before[i], course_.saturation_after[i], way);
-    }
+        points.saturation[i] = saturation_on_the_way(body, i, way, porosity_of(model, i));
+        if (!changes)
+            return;
+        const MaterialDescription& material = *body.material;
+        const double mass = mixture_density(material, saturation_on_the_way(body, i, way, material.porosity)) *
+                            points.initial_volume[i];
+        const double arrived = mass - std::exchange(points.mass[i], mass);
+        sum[0] += 0.5 * arrived * points.velocity[i].squaredNorm();
+        sum[1] -= arrived * model.gravity.dot(points.position[i]);
+    });
+    return {kinetic, gravity};
 }
 
 double porosity_of(const Model& model, std::size_t point)

@@ -180,6 +180,12 @@ void Dynamics::open_ledger()
     ledger.opening = ledger.kinetic + ledger.contact;
 }
 
+void Dynamics::book(const ArrivedEnergy& arrived)
+{
+    state_.ledger.boundary += arrived.kinetic;
+    state_.gravity_datum += arrived.gravity;
+}
+
 double Dynamics::kinetic_energy() const
 {
     return ordered_sums<1>(model_.size(), [&](std::size_t i, std::array<double, 1>& sum) {

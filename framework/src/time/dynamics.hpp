@@ -54,11 +54,14 @@ public:
     /// Sets all energies to zero at the present state.
     void open_ledger();
     const EnergyLedger& ledger() const { return state_.ledger; }
+    /// The masses of the points changed: what came has its kinetic energy from outside, and gravity works on it from
+    /// now on.
+    void book(const ArrivedEnergy& arrived);
 
     /// What a checkpoint must keep besides the model.
     struct State {
         EnergyLedger ledger;
-        double gravity_datum = 0.0; ///< gravity energy when the ledger was opened [J]
+        double gravity_datum = 0.0; ///< gravity energy at the opening, and of later mass where it arrived [J]
         double residual = 0.0;
         double force_scale = 0.0;            ///< that the residual is relative to [N]
         double force_squared_per_mass = 0.0; ///< sum |F|^2/m at the last evaluation [N2/kg]

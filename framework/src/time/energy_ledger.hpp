@@ -6,17 +6,23 @@
 
 namespace periporo {
 
+/// What mass brings with it that comes to points where they are and with their velocity [J].
+struct ArrivedEnergy {
+    double kinetic = 0.0; ///< sum dm v^2/2
+    double gravity = 0.0; ///< -sum dm g.x
+};
+
 /// Energies since the ledger was opened [J]. Each is found by its own way: kinetic and gravity from velocities and
 /// positions, the work of stress from bond stresses and rates of deformation, contact from the laws' stored energy,
 /// friction from forces and velocities. error() is then a check and not an identity.
 struct EnergyLedger {
     double kinetic = 0.0;     ///< sum m v^2/2
-    double gravity = 0.0;     ///< potential energy -sum m g.x relative to the opening
+    double gravity = 0.0;     ///< potential energy -sum m g.x relative to the opening, and to where later mass arrived
     double stress_work = 0.0; ///< stored and dissipated by the material
     double contact = 0.0;     ///< stored in contacts
     double friction = 0.0;    ///< dissipated by friction
     double collision = 0.0;   ///< dissipated in the normal direction of contacts
-    double boundary = 0.0;    ///< work that moving points and obstacles did on the bodies
+    double boundary = 0.0;    ///< work of moving points and obstacles on the bodies; kinetic energy of water that came
     double opening = 0.0;     ///< kinetic + contact when opened
     /// What velocity Verlet lends to the kinetic energy within a period and takes back: minus dt^2 |F|^2/(8m) since the
     /// opening. A step from n to n+1 adds (F_n + F_n+1)/2 . dx to kinetic + verlet exactly.

@@ -111,6 +111,32 @@ TEST_CASE("suction goes evenly from one value to the other, the saturation along
     }
 }
 
+TEST_CASE("water that comes adds its weight, and brings the energy of where it comes and how fast the soil is there")
+{
+    Block block(curve, "water = { type = \"uniform\", suction = \"8 kPa\" }",
+                "water = [{ body = \"block\", type = \"uniform\", suction = \"2 kPa\", over = \"0.5 s\" }]");
+    Model& model = block.built.model;
+    Points& points = model.points;
+    points.velocity[9] = {1.0, 2.0, -2.0};
+    points.volume[9] *= 1.1; // takes up no water
+    Water water = block.begun();
+    const auto mass = [](double suction) { return 1e-3 * (2500.0 * 0.6 + van_genuchten(suction) * 0.4 * 1000.0); };
+    double height = 0.0; // sum of the heights of the points [m]
+    for (const Vector3& x : points.position)
+        height += x.z();
+    double before = 8e3;
+    for (const auto& [time, suction] : {std::pair{0.25, 5e3}, {0.5, 2e3}, {0.75, 2e3}}) {
+        CAPTURE(time);
+        const ArrivedEnergy arrived = water.follow(model, time);
+        const double came = mass(suction) - mass(before);
+        before = suction;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            REQUIRE(points.mass[i] == doctest::Approx(mass(suction)).epsilon(1e-14));
+        CHECK(arrived.kinetic == doctest::Approx(4.5 * came).epsilon(1e-12));
+        CHECK(arrived.gravity == doctest::Approx(9.81 * height * came).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("without a curve the saturation goes evenly, and what gets dry is dry at the end")
 {
     Block block("", "water = { type = \"uniform\", suction = \"8 kPa\", saturation = 0.2 }",
