@@ -43,6 +43,20 @@ struct Impatient {
     }
 };
 
+/// S_r = s_h/(s_h + e s) with the void ratio e: half at s = s_h/e.
+struct Hyperbola : Retention {
+    static std::vector<Parameter> parameters()
+    {
+        return {Parameter::real("half", dimension::pressure, "Suction s_h at which half is left, at e = 1").above(0.0)};
+    }
+    explicit Hyperbola(const Parameters& parameters) : half(parameters.real("half")) {}
+    double saturation(double suction, double porosity) const override
+    {
+        return half / (half + porosity / (1.0 - porosity) * suction);
+    }
+    double half;
+};
+
 /// Laws of the project under names of their own, since those of the build are found too, and impatient.
 inline PluginRegistry path_registry()
 {
@@ -53,7 +67,10 @@ inline PluginRegistry path_registry()
         describe_plugin<material, LawMaterial<ViscoplasticCriticalState>>("paper_silt", "A soil");
     static const PluginDescriptor impatient =
         describe_plugin<material, LawMaterial<Impatient>>("impatient", "Hooke's law in small steps");
+    static const PluginDescriptor hyperbola =
+        describe_plugin<PluginKind::retention, Hyperbola>("hyperbola", "A curve of the void ratio");
     PluginRegistry registry;
+    registry.add(hyperbola, "/test/hyperbola.so");
     registry.add(elastic, "/test/elastic.so");
     registry.add(silt, "/test/silt.so");
     registry.add(impatient, "/test/impatient.so");
@@ -92,12 +109,16 @@ inline PathDescription read_path_text(const std::string& text, const std::vector
 struct DrivenPath {
     PathDescription description;
     std::unique_ptr<Material> material;
+    std::unique_ptr<Retention> curve;
     PathRecord record;
 
     explicit DrivenPath(const std::string& text)
         : description(read_path_text(text)),
           material(path_registry().make_material(description.model.name, description.model.parameters)),
-          record(drive_path(description, *material))
+          curve(description.retention
+                    ? path_registry().make_retention(description.retention->name, description.retention->parameters)
+                    : nullptr),
+          record(drive_path(description, *material, curve.get()))
     {
     }
 

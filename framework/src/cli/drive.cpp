@@ -44,7 +44,9 @@ ExitStatus drive(DriveArguments& arguments)
     check_folder(arguments.folder, arguments.path.file);
 
     const std::unique_ptr<Material> material = registry.make_material(path.model.name, path.model.parameters);
-    const PathRecord record = drive_path(path, *material);
+    const std::unique_ptr<Retention> curve =
+        path.retention ? registry.make_retention(path.retention->name, path.retention->parameters) : nullptr;
+    const PathRecord record = drive_path(path, *material, curve.get());
     write_path_results(path, record, arguments.folder);
     fmt::print("{}\n{}\n", summary_line(path, record), (arguments.folder / "path.csv").string());
     if (!record.failure)

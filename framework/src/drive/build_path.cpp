@@ -121,13 +121,15 @@ PathDescription build_path(const CheckedTable& root)
     const CheckedTable& material = root.one("material");
     path.material_name = material.name;
     path.model = {material.own.text("model"), material.plugin};
+    for (const CheckedTable& curve : material.all("retention"))
+        path.retention = {curve.own.text("curve"), curve.plugin};
     path.grain_density = optional_real(material.own, "grain_density");
     path.porosity = optional_real(material.own, "porosity");
     const CheckedTable& initial = root.one("initial");
     path.stress = initial_stress_of(initial.own);
     path.overconsolidation_ratio = initial.own.real("overconsolidation_ratio");
-    path.suction = initial.own.real("suction");
-    path.saturation = initial.own.real("saturation");
+    path.suction = optional_real(initial.own, "suction");
+    path.saturation = optional_real(initial.own, "saturation");
     const CheckedTable& state = initial.one("state");
     for (const Parameter& record : state.records)
         if (state.own.has(record.name))

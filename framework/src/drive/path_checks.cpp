@@ -55,7 +55,7 @@ void check_rate(const CheckedTable& stage, const std::string& stress_target, con
                           fmt::format("with '{}' = 0 a rate gives no duration", strain_target), "give 'duration'");
 }
 
-void check_target(const CheckedTable& stage, const std::string& type, Diagnostics& diagnostics)
+void check_target(const CheckedTable& stage, const std::string& type, bool curve, Diagnostics& diagnostics)
 {
     struct Targets {
         const char* type;
@@ -75,8 +75,9 @@ void check_target(const CheckedTable& stage, const std::string& type, Diagnostic
         }
     if (type == "true_triaxial")
         check_only_one(stage, {"pressures", "compressions"}, diagnostics);
-    if (type == "suction" && !gives(stage, "suction") && !gives(stage, "saturation"))
-        diagnostics.error(stage.place, fmt::format("{} needs 'suction', 'saturation' or both", stage.label));
+    if (type == "suction" && !gives(stage, "suction") && (curve || !gives(stage, "saturation")))
+        diagnostics.error(stage.place,
+                          fmt::format("{} needs 'suction'{}", stage.label, curve ? "" : ", 'saturation' or both"));
 }
 
 void check_cycles(const CheckedTable& stage, Diagnostics& diagnostics)
@@ -119,11 +120,19 @@ void check_components(const CheckedTable& stage, Diagnostics& diagnostics)
 
 /// Suction and saturation as they are after a table that may set them.
 struct Water {
+    bool curve = false; ///< does one say what the saturation is?
     double suction = 0.0;
     double saturation = 0.0;
 
     void follow(const CheckedTable& table, Diagnostics& diagnostics)
     {
+        if (curve) {
+            if (gives(table, "saturation"))
+                diagnostics.error(table.place_of("saturation"),
+                                  "the retention curve of the material says what the saturation is",
+                                  "leave out one of the two");
+            return;
+        }
         bool changed = false;
         for (auto [key, value] : {std::pair("suction", &suction), std::pair("saturation", &saturation)})
             if (const auto* given = value_of<double>(table, key)) {
@@ -145,13 +154,20 @@ void check_path(const CheckedTable& root, Diagnostics& diagnostics)
         diagnostics.error(root.all("material")[i].place, "a path is of one material, and this is another",
                           "keep one [material.NAME]");
     Water water;
+    for (const CheckedTable& material : root.all("material"))
+        for (const CheckedTable& curve : material.all("retention")) {
+            water.curve = true;
+            if (!gives(material, "porosity"))
+                diagnostics.error(curve.place, fmt::format("{} needs the porosity of the soil", curve.label),
+                                  fmt::format("give 'porosity' in {}", material.label));
+        }
     for (const CheckedTable& initial : root.all("initial")) {
         check_only_one(initial, {"pressure", "stress"}, diagnostics);
         water.follow(initial, diagnostics);
     }
     for (const CheckedTable& stage : root.all("stage")) {
         if (const auto* type = value_of<std::string>(stage, "type"))
-            check_target(stage, *type, diagnostics);
+            check_target(stage, *type, water.curve, diagnostics);
         check_cycles(stage, diagnostics);
         check_components(stage, diagnostics);
         const Water before = water;

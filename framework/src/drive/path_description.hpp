@@ -53,6 +53,7 @@ struct TrueTriaxialStage {
     std::array<double, 3> targets{}; ///< of x, y and z: pressures [Pa] or compressions [-]
 };
 /// A change of the water at held total or effective stress; the total stress is effective + S_r s, tension-positive.
+/// With a retention curve there is no saturation: it follows the suction.
 struct SuctionStage {
     std::optional<double> suction;    ///< at the end [Pa]
     std::optional<double> saturation; ///< at the end [-]
@@ -85,13 +86,14 @@ struct PathDescription {
     std::string title;
     std::string material_name;
     PluginChoice model;
-    std::optional<double> grain_density;  ///< [kg/m3]; a point alone has no use for it
-    std::optional<double> porosity;       ///< at the start [-]
-    SymmetricTensor<double> stress;       ///< effective, at the start, tension-positive [Pa]
-    double overconsolidation_ratio = 1.0; ///< OCR from which the law sets its state [-]
-    double suction = 0.0;                 ///< at the start [Pa]
-    double saturation = 0.0;              ///< at the start [-]
-    std::map<std::string, double> state;  ///< state variables that do not follow from the OCR
+    std::optional<PluginChoice> retention; ///< curve of S_r over the suction
+    std::optional<double> grain_density;   ///< [kg/m3]; a point alone has no use for it
+    std::optional<double> porosity;        ///< at the start [-]
+    SymmetricTensor<double> stress;        ///< effective, at the start, tension-positive [Pa]
+    double overconsolidation_ratio = 1.0;  ///< OCR from which the law sets its state [-]
+    std::optional<double> suction;         ///< at the start; none: dry [Pa]
+    std::optional<double> saturation;      ///< at the start, without a retention curve; none: dry [-]
+    std::map<std::string, double> state;   ///< state variables that do not follow from the OCR
     std::vector<PathStage> stages;
     std::vector<std::filesystem::path> plugin_paths; ///< absolute, of the file and of the command line
     std::string resolved; ///< the whole file with all defaults, as TOML that reads back to the same path

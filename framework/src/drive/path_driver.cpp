@@ -96,14 +96,35 @@ std::vector<double> turning_points(const PathStage& stage)
     return points;
 }
 
-Increment increment_between(const StagePlan& plan, double from, double to, double time_step)
+/// S_r of the curve at the porosity of the point.
+double saturation_of(const Retention& curve, double suction, const PathDescription& path, const MaterialPoint& point)
 {
-    Increment increment{plan.stress_controlled, plan.at(to), time_step};
-    for (std::size_t c = 0; c < 6; ++c)
-        if (!plan.stress_controlled[c])
-            increment.values.components[c] = plan.target.components[c] * (to - from);
-    return increment;
+    return curve.saturation(suction, std::max(0.0, 1.0 - 1.0 / specific_volume(path, point).value()));
 }
+
+/// A path with what it is made of.
+struct Drive {
+    const PathDescription& path;
+    const Retention* curve; ///< or null
+    PathRecord& record;
+
+    Increment increment_between(const StagePlan& plan, double from, double to, double time_step) const
+    {
+        Increment increment{plan.stress_controlled, plan.at(to), time_step};
+        StageValues& values = increment.values;
+        if (curve != nullptr && plan.wet)
+            values.saturation = saturation_of(*curve, values.suction, path, record.rows.back().point);
+        for (std::size_t c = 0; c < 6; ++c) {
+            if (!plan.stress_controlled[c])
+                values.components[c] = plan.target.components[c] * (to - from);
+            else if (plan.total_stress && c < 3)
+                values.components[c] -= values.saturation * values.suction;
+        }
+        return increment;
+    }
+
+    bool make(const PathStage& stage, std::size_t number);
+};
 
 MixedStage as_stage(const Increment& increment)
 {
@@ -120,7 +141,7 @@ MixedStage as_stage(const Increment& increment)
 }
 
 /// Makes one stage; false when a step failed.
-bool drive_stage(const PathStage& stage, std::size_t number, PathRecord& record)
+bool Drive::make(const PathStage& stage, std::size_t number)
 {
     const StagePlan plan = plan_stage(stage.kind, record.rows.back().point);
     const double time_step = stage.duration / static_cast<double>(stage.steps);
@@ -151,10 +172,19 @@ bool drive_stage(const PathStage& stage, std::size_t number, PathRecord& record)
 
 } // namespace
 
-MaterialPoint initial_point(const PathDescription& path, const Material& material)
+std::optional<double> specific_volume(const PathDescription& path, const MaterialPoint& point)
+{
+    if (!path.porosity)
+        return std::nullopt;
+    return std::exp(trace(point.strain())) / (1.0 - *path.porosity);
+}
+
+MaterialPoint initial_point(const PathDescription& path, const Material& material, const Retention* curve)
 {
     MaterialPoint point(material, path.stress);
-    point.set_water(path.suction, path.saturation);
+    const double suction = path.suction.value_or(0.0);
+    point.set_water(suction, curve != nullptr && path.suction ? saturation_of(*curve, suction, path, point)
+                                                              : path.saturation.value_or(0.0));
     point.initialize(path.overconsolidation_ratio);
     const std::vector<StateVariable>& variables = material.state_variables();
     for (std::size_t s = 0; s < variables.size(); ++s) {
@@ -168,12 +198,13 @@ MaterialPoint initial_point(const PathDescription& path, const Material& materia
     return point;
 }
 
-PathRecord drive_path(const PathDescription& path, const Material& material)
+PathRecord drive_path(const PathDescription& path, const Material& material, const Retention* curve)
 {
     PathRecord record;
-    record.rows.push_back({0, 0, 0.0, initial_point(path, material)});
+    record.rows.push_back({0, 0, 0.0, initial_point(path, material, curve)});
+    Drive drive{path, curve, record};
     for (std::size_t s = 0; s < path.stages.size(); ++s)
-        if (!drive_stage(path.stages[s], s + 1, record))
+        if (!drive.make(path.stages[s], s + 1))
             break;
     return record;
 }

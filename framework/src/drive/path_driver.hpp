@@ -6,6 +6,7 @@
 
 #include "drive/path_description.hpp"
 #include "periporo/material_point.hpp"
+#include "periporo/retention.hpp"
 
 #include <optional>
 #include <string>
@@ -36,11 +37,16 @@ struct PathRecord {
     std::optional<FailedStep> failure;
 };
 
-/// The point as a path starts: state variables by the law from the OCR, then those that the path gives.
-/// @throws std::runtime_error when the law gives a state that is not finite.
-MaterialPoint initial_point(const PathDescription& path, const Material& material);
+/// Specific volume v = 1/(1 - phi0) exp(tr eps) [-], where phi0 is known: strains are logarithmic, as sums of D dt are.
+std::optional<double> specific_volume(const PathDescription& path, const MaterialPoint& point);
 
-/// Makes all steps of all stages. The material must outlive the record.
-PathRecord drive_path(const PathDescription& path, const Material& material);
+/// The point as a path starts: state variables by the law from the OCR, then those that the path gives.
+/// @param curve of the material, null when it has none
+/// @throws std::runtime_error when the law gives a state that is not finite.
+MaterialPoint initial_point(const PathDescription& path, const Material& material, const Retention* curve = nullptr);
+
+/// Makes all steps of all stages. The material must outlive the record. With a curve the saturation is that of the
+/// suction at the end of a step and of the porosity at its beginning.
+PathRecord drive_path(const PathDescription& path, const Material& material, const Retention* curve = nullptr);
 
 } // namespace periporo

@@ -133,13 +133,6 @@ std::string stage_text(const FailedStep& failure, const PathStage& stage)
 
 } // namespace
 
-std::optional<double> specific_volume(const PathDescription& path, const MaterialPoint& point)
-{
-    if (!path.porosity)
-        return std::nullopt;
-    return std::exp(trace(point.strain())) / (1.0 - *path.porosity);
-}
-
 std::string path_table(const PathDescription& path, const PathRecord& record)
 {
     std::string text;

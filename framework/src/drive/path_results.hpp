@@ -24,9 +24,6 @@ std::string path_table(const PathDescription& path, const PathRecord& record);
 /// A path that begins before the failed step, makes this step alone, and so fails in the same way.
 std::string failing_step_text(const PathDescription& path, const PathRecord& record);
 
-/// Specific volume v = 1/(1 - phi0) exp(tr eps) [-]: strains are logarithmic, as sums of D dt are.
-std::optional<double> specific_volume(const PathDescription& path, const MaterialPoint& point);
-
 /// Where the path came to, in one line.
 std::string summary_line(const PathDescription& path, const PathRecord& record);
 

@@ -25,7 +25,6 @@ TableRules material_rules()
     for (Parameter& record : rules.parameters)
         if (record.name == "porosity" || record.name == "grain_density")
             record = std::move(record).optional();
-    rules.nested.clear(); // a path gives the saturation beside the suction
     return rules;
 }
 
@@ -42,7 +41,8 @@ Dimension dimension_of(const StateVariable& variable)
 std::vector<Parameter> suction_records()
 {
     return {Parameter::real("suction", dimension::pressure, "Suction s").at_least(0.0),
-            Parameter::real("saturation", dimension::none, "Degree of saturation S_r; 0 for a dry soil")
+            Parameter::real("saturation", dimension::none,
+                            "Degree of saturation S_r, of a material without a retention curve")
                 .at_least(0.0)
                 .at_most(1.0)};
 }
@@ -61,7 +61,7 @@ TableRules initial_rules(const std::vector<StateVariable>& state_variables)
              .at_least(1.0)
              .by_default(1.0)}};
     for (Parameter& record : suction_records())
-        rules.parameters.push_back(std::move(record).by_default(0.0));
+        rules.parameters.push_back(std::move(record).optional());
     TableRules state;
     for (const StateVariable& variable : state_variables)
         state.parameters.push_back(

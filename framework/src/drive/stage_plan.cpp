@@ -17,6 +17,7 @@ StagePlan at_rest(const MaterialPoint& point)
     StagePlan plan;
     plan.start.suction = plan.target.suction = point.suction();
     plan.start.saturation = plan.target.saturation = point.saturation();
+    plan.wet = point.suction() > 0.0 || point.saturation() > 0.0;
     return plan;
 }
 
@@ -37,6 +38,7 @@ void set_water(StagePlan& plan, const std::optional<double>& suction, const std:
 {
     plan.target.suction = suction.value_or(plan.start.suction);
     plan.target.saturation = saturation.value_or(plan.start.saturation);
+    plan.wet = plan.wet || suction || saturation;
 }
 
 /// One overload for each kind of stage.
@@ -109,11 +111,13 @@ struct Planner {
     {
         StagePlan plan = at_rest(point);
         set_water(plan, stage.suction, stage.saturation);
-        const double change = plan.target.saturation * plan.target.suction - plan.start.saturation * plan.start.suction;
+        plan.total_stress = stage.total_stress_held;
+        const double of_water = plan.total_stress ? point.saturation() * point.suction() : 0.0;
         for (std::size_t c = 0; c < 6; ++c) {
             hold_stress(plan, c, point);
-            if (stage.total_stress_held && c <= zz)
-                plan.target.components[c] -= change; // total = effective + S_r s
+            if (c <= zz)
+                for (StageValues* values : {&plan.start, &plan.target})
+                    values->components[c] += of_water;
         }
         return plan;
     }

@@ -23,6 +23,8 @@ struct StageValues {
 /// A stage from its start to its target; what lies between is in proportion.
 struct StagePlan {
     std::array<bool, 6> stress_controlled{};
+    bool total_stress = false; ///< are the normal stresses total ones, effective + S_r s?
+    bool wet = false;          ///< is there water, with a saturation by the retention curve where there is one?
     StageValues start;
     StageValues target;
 

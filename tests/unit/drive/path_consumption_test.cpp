@@ -16,9 +16,9 @@ using namespace periporo::test;
 namespace {
 
 /// A path with a stage of every kind. What may be a stress or a strain is a strain: the stress is asked for first.
-std::string every_kind(const std::string& start, const std::string& time)
+std::string every_kind(const std::string& material, const std::string& start, const std::string& time)
 {
-    return silt + "[plugins]\npaths = [\"more_plugins\"]\n[initial]\n" + start +
+    return silt + material + "[plugins]\npaths = [\"more_plugins\"]\n[initial]\n" + start +
            "\n[[stage]]\ntype = \"isotropic\"\nvolumetric_compression = 0.1\n" + time +
            "\n[[stage]]\ntype = \"oedometric\"\naxial_compression = 0.1\n" + time +
            "\n[[stage]]\ntype = \"triaxial_drained\"\naxial_compression = 0.1\n" + time +
@@ -77,8 +77,10 @@ TEST_CASE("building the description of a path consumes exactly the keys that its
 {
     const TableRules rules = path_rules(ViscoplasticCriticalState::state_variables());
     Keys consumed;
-    for (const std::string& text : {every_kind("pressure = \"100 kPa\"", "duration = 1"),
-                                    every_kind("stress = [-1e5, -1e5, -1e5, 0, 0, 0]", "strain_rate = 1")}) {
+    for (const std::string& text :
+         {every_kind("", "pressure = \"100 kPa\"\nsuction = 0\nsaturation = 0", "duration = 1"),
+          every_kind("porosity = 0.4\nretention = { curve = \"hyperbola\", half = 1e3 }\n",
+                     "stress = [-1e5, -1e5, -1e5, 0, 0, 0]", "strain_rate = 1")}) {
         const TemporaryFolder folder;
         write_file(folder / "path.toml", text);
         Diagnostics diagnostics;

@@ -155,6 +155,21 @@ TEST_CASE("two-way cycles need cycles, and cannot be of water")
              "true");
 }
 
+TEST_CASE("a retention curve says the saturation, and needs the porosity")
+{
+    const std::string curve = "retention = { curve = \"hyperbola\", half = \"1 kPa\" }\n";
+    const std::string wet = with(sound, "viscosity = 0\n", "viscosity = 0\nporosity = 0.4\n" + curve);
+    const DrivenPath path(with(wet, "[[stage]]", "suction = \"1 kPa\"\n[[stage]]"));
+    CHECK(path.start().saturation() == doctest::Approx(0.6));
+    const DrivenPath again(path.description.resolved);
+    CHECK(path_table(again.description, again.record) == path_table(path.description, path.record));
+    error_at(with(sound, "viscosity = 0\n", "viscosity = 0\n" + curve), "{ curve");
+    error_at(with(wet, "[[stage]]", "suction = \"1 kPa\"\nsaturation = 0.77\n[[stage]]"), "0.77");
+    error_at(wet + "[[stage]]\ntype = \"suction\"\nheld = \"total_stress\"\nsaturation = 0.77\nsuction = 2\n"
+                   "duration = 1\n",
+             "0.77");
+}
+
 TEST_CASE("suction without water is an error, at the start and later")
 {
     error_at(with(sound, "[[stage]]", "suction = \"1 kPa\"\n[[stage]]"), "\"1 kPa\"");

@@ -118,6 +118,49 @@ TEST_CASE("a rise of suction at constant total stress raises the effective press
     CHECK(trace(path.end().strain()) == doctest::Approx(-0.4 * 20e3 / bulk_modulus).epsilon(tight).scale(0.0));
 }
 
+TEST_CASE("total stress that is held stays in every step, along a curve and where suction and saturation are given")
+{
+    const std::string curve = "porosity = 0.5\nretention = { curve = \"hyperbola\", half = \"20 kPa\" }\n";
+    const auto text = [&](const std::string& retention, const std::string& initial, const std::string& drying) {
+        return rubber + retention + start + initial + "[[stage]]\nduration = 1\nsteps = 10\ntype = \"suction\"\n" +
+               drying + "suction = \"60 kPa\"\nheld = \"total_stress\"\n";
+    };
+    const DrivenPath both(text("", "suction = \"5 kPa\"\nsaturation = 0.9\n", "saturation = 0.3\n"));
+    const DrivenPath followed(text(curve, "suction = \"5 kPa\"\n", ""));
+    for (const DrivenPath* path : {&both, &followed}) {
+        const auto total = [](const MaterialPoint& point) {
+            return point.saturation() * point.suction() - mean_pressure(point.stress());
+        };
+        for (const PathRow& row : path->rows())
+            CHECK(total(row.point) == doctest::Approx(total(path->start())).epsilon(tight));
+    }
+    CHECK(both.rows()[5].point.saturation() == doctest::Approx(0.6));
+    CHECK(both.end().saturation() == 0.3);
+    const auto hyperbola = [](double suction, double void_ratio) { return 20e3 / (20e3 + void_ratio * suction); };
+    CHECK(followed.start().saturation() == doctest::Approx(hyperbola(5e3, 1.0)).epsilon(1e-14));
+    for (std::size_t r = 1; r < followed.rows().size(); ++r) // at the void ratio of the step before
+        CHECK(followed.rows()[r].point.saturation() ==
+              doctest::Approx(hyperbola(followed.rows()[r].point.suction(),
+                                        2.0 * std::exp(trace(followed.rows()[r - 1].point.strain())) - 1.0))
+                  .epsilon(1e-12));
+}
+
+TEST_CASE("with a curve soil is dry until it gets a suction, and follows the void ratio at a suction that stays")
+{
+    const std::string text = rubber + "porosity = 0.5\nretention = { curve = \"hyperbola\", half = \"20 kPa\" }\n" +
+                             start +
+                             "[[stage]]\nduration = 1\nsteps = 4\ntype = \"isotropic\"\npressure = \"20 kPa\"\n" +
+                             "[[stage]]\nduration = 1\nsteps = 4\ntype = \"suction\"\nsuction = \"20 kPa\"\n"
+                             "held = \"effective_stress\"\n" +
+                             "[[stage]]\nduration = 1\nsteps = 400\ntype = \"isotropic\"\n"
+                             "volumetric_compression = 0.2\n";
+    const DrivenPath path(text);
+    CHECK(path.rows()[4].point.saturation() == 0.0);
+    CHECK(path.rows()[5].point.saturation() > 0.5);
+    const double void_ratio = 2.0 * std::exp(-0.2 - 10e3 / bulk_modulus) - 1.0;
+    CHECK(path.end().saturation() == doctest::Approx(1.0 / (1.0 + void_ratio)).epsilon(1e-3)); // one step behind
+}
+
 TEST_CASE("a rise of suction at constant effective stress does not strain an elastic soil")
 {
     const DrivenPath path(
