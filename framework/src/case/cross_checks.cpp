@@ -7,6 +7,7 @@
 #include "case/scene_checks.hpp"
 #include "case/table_values.hpp"
 #include "case/water_checks.hpp"
+#include "plugins/fit_contact.hpp"
 
 #include <fmt/format.h>
 
@@ -147,6 +148,27 @@ void try_plugins(const CheckedTable& root, const PluginRegistry& registry, Diagn
 {
     for (const NestedRules& nested : root.nested)
         try_plugins_of(root.all(nested.name), nested.rules, registry, diagnostics);
+}
+
+void try_contacts(const CheckedTable& root, const PluginRegistry& registry, Diagnostics& diagnostics)
+{
+    const CheckedTable& discretization = root.one("discretization");
+    const double spacing = *value_of<double>(discretization, "spacing");
+    const double horizon = *value_of<double>(discretization, "horizon") * spacing;
+    const std::vector<std::string> obstacles = names_of(root.all("obstacle"));
+    for (const CheckedTable& contact : root.all("contact")) {
+        const auto& between = *value_of<std::vector<std::string>>(contact, "between");
+        const bool surfaces =
+            contact.places.contains("surface") ||
+            std::ranges::any_of(between, [&](const std::string& name) { return contains(obstacles, name); });
+        const Parameters trial = contact.plugin;
+        const std::string& name = *value_of<std::string>(contact, "law");
+        try {
+            fit_contact(*registry.make_contact(name, trial), spacing, horizon, surfaces);
+        } catch (const std::exception& fault) {
+            diagnostics.error(contact.place, fault.what(), fmt::format("contact '{}' cannot act here", name));
+        }
+    }
 }
 
 } // namespace periporo

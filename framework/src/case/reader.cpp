@@ -26,6 +26,8 @@ CaseDescription read_case(const std::filesystem::path& file, const CaseOptions& 
     diagnostics.raise();
     try_plugins(checked, registry, diagnostics);
     diagnostics.raise();
+    try_contacts(checked, registry, diagnostics);
+    diagnostics.raise();
 
     CaseDescription description = build_description(checked);
     description.file = file;

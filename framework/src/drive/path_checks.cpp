@@ -4,6 +4,7 @@
 // Checks between the keys of a path. Values that were wrong themselves are absent here and are passed over.
 #include "drive/path_checks.hpp"
 
+#include "case/table_values.hpp"
 #include "periporo/tensor.hpp"
 
 #include <fmt/format.h>
@@ -13,14 +14,6 @@
 
 namespace periporo {
 namespace {
-
-/// A value if it was given soundly or has a default. Looks at the values directly: a check is no consumption.
-template <class Value>
-const Value* value_of(const CheckedTable& table, const std::string& key)
-{
-    const auto found = table.own.values().find(key);
-    return found == table.own.values().end() ? nullptr : std::get_if<Value>(&found->second);
-}
 
 bool gives(const CheckedTable& table, const std::string& key)
 {

@@ -7,6 +7,7 @@
 #include "model/body_fill.hpp"
 #include "operator/bond_update.hpp"
 #include "operator/refresh.hpp"
+#include "plugins/fit_contact.hpp"
 #include "scheduler/geometries.hpp"
 #include "scheduler/held_points.hpp"
 
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -154,19 +154,9 @@ ContactAssignment assignment_of(const Model& model, const ContactDescription& co
     }
     if (!contact.surface.empty())
         assignment.surface_body = number_of(model.bodies, contact.surface);
-    const auto refuse = [&](const std::string& reason) {
-        throw std::runtime_error(
-            fmt::format("contact '{}' between {}: {}", contact.law.name, fmt::join(contact.between, " and "), reason));
-    };
-    if (law->surface() != nullptr && (assignment.obstacle || assignment.surface_body))
-        refuse("the law brings a surface of its own; name only the bodies that touch it");
     if (!at_rigid_surface(assignment) && assignment.bodies.size() == 1)
         assignment.bodies.push_back(assignment.bodies.front());
-    const bool surface = at_rigid_surface(assignment) || assignment.surface_body;
-    law->scale({model.spacing, model.horizon, surface ? ContactPartner::surface : ContactPartner::points});
-    if (law->cutoff() >= model.horizon)
-        refuse(
-            fmt::format("its cut-off {:.4g} m is not shorter than the horizon {:.4g} m", law->cutoff(), model.horizon));
+    fit_contact(*law, model.spacing, model.horizon, assignment.obstacle || assignment.surface_body);
     return assignment;
 }
 

@@ -7,6 +7,7 @@
 #include "scheduler/build_model.hpp"
 #include "scheduler/held_points.hpp"
 #include "support/case_text.hpp"
+#include "support/errors.hpp"
 #include "support/plugins.hpp"
 #include "support/specimens.hpp"
 #include "support/temporary_folder.hpp"
@@ -248,9 +249,10 @@ friction = 0
     CHECK(made.model.obstacles[0].velocity == Vector3::UnitZ());
 }
 
-TEST_CASE("a law with a surface of its own meets no obstacle")
+TEST_CASE("a contact law that cannot act where it stands is an error of the case")
 {
-    const CaseDescription description = quickstart_with(R"(
+    periporo::test::check_mentions(periporo::test::message_of_error([] {
+                                       quickstart_with(R"(
 [obstacle.floor]
 geometry = { generator = "box", size = ["1 m", "1 m", "10 mm"], origin = [0, 0, "-10 mm"] }
 [[contact]]
@@ -261,8 +263,19 @@ normal = [0, 0, 1]
 modulus = "1 MPa"
 friction = 0
 )");
-    CHECK_THROWS_WITH_AS(built(description), doctest::Contains("the law brings a surface of its own"),
-                         std::runtime_error);
+                                   }),
+                                   {"the law brings a surface of its own", "contact 'rigid_plane' cannot act here"});
+    periporo::test::check_mentions(periporo::test::message_of_error([] {
+                                       quickstart_with(R"(
+[[contact]]
+law = "penalty"
+between = ["column", "column"]
+modulus = "1 MPa"
+cutoff = "31 mm"
+friction = 0
+)");
+                                   }),
+                                   {"its cut-off 0.031 m is not shorter than the horizon 0.03015 m"});
 }
 
 TEST_CASE("a fixed region that holds no point, or all, is refused")
