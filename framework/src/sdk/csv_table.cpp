@@ -3,8 +3,9 @@
 //
 #include "periporo/csv_table.hpp"
 
+#include "periporo/text.hpp"
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -18,11 +19,7 @@ namespace {
 /// Without blanks at both ends, and without quotes around the rest.
 std::string_view content_of(std::string_view cell)
 {
-    constexpr std::string_view blanks = " \t\r";
-    const std::size_t first = cell.find_first_not_of(blanks);
-    if (first == std::string_view::npos)
-        return {};
-    cell = cell.substr(first, cell.find_last_not_of(blanks) - first + 1);
+    cell = trimmed(cell);
     const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
     return quoted ? cell.substr(1, cell.size() - 2) : cell;
 }
@@ -36,17 +33,6 @@ std::vector<std::string_view> cells_of(std::string_view line)
     }
     cells.push_back(content_of(line));
     return cells;
-}
-
-std::optional<double> number(std::string_view text)
-{
-    if (text.starts_with('+'))
-        text.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
-    return value;
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line, const std::string& reason)
@@ -136,7 +122,7 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<Csv
             refuse(file, line, fmt::format("{} cells, and {} in the header", cells.size(), width));
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const std::optional<double> value = number(cells[places[c].column]);
-            if (!value)
+            if (!value || !std::isfinite(*value))
                 refuse(
                     file, line,
                     fmt::format("{} is \"{}\", which is no finite number", columns[c].name, cells[places[c].column]));

@@ -5,7 +5,7 @@
 #include "height_grid.hpp"
 
 #include "height_grid_formats.hpp"
-#include "text.hpp"
+#include "periporo/text.hpp"
 
 #include <fmt/format.h>
 

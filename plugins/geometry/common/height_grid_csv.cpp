@@ -4,7 +4,7 @@
 // Height grids in CSV files: a line "x, y, z", then a line per point in any order.
 #include "height_grid_formats.hpp"
 
-#include "text.hpp"
+#include "periporo/text.hpp"
 
 #include <fmt/format.h>
 

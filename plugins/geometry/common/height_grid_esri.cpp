@@ -4,7 +4,7 @@
 // ESRI ASCII grids: a header of six lines, then heights row by row from the north.
 #include "height_grid_formats.hpp"
 
-#include "text.hpp"
+#include "periporo/text.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 // Finds the format of a file of points, and checks what was read.
 #include "point_file.hpp"
 
-#include "common/text.hpp"
+#include "periporo/text.hpp"
 
 #include <fmt/format.h>
 

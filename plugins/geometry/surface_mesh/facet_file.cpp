@@ -4,7 +4,7 @@
 // Reads facets by CGAL's readers of polygon soups, and checks what they let pass.
 #include "facet_file.hpp"
 
-#include "common/text.hpp"
+#include "periporo/text.hpp"
 
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>

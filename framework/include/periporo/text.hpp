@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace periporo::geometry {
+namespace periporo {
 
 inline std::string lower_case(std::string_view text)
 {
@@ -42,4 +42,4 @@ inline std::optional<double> number(std::string_view text)
     return value;
 }
 
-} // namespace periporo::geometry
+} // namespace periporo
