@@ -24,6 +24,7 @@ struct Body {
     std::shared_ptr<const Material> material;
     double overconsolidation_ratio = 1.0; ///< OCR, for the initial state of the material [-]
     double porosity = 0.0;                ///< phi0 [-]
+    bool ground = false;                  ///< do points of another body stand on its smoothed surface?
 
     /// Rows of a bond: six of stress, then the state variables.
     std::size_t rows() const { return 6 + material->state_variables().size(); }

@@ -230,6 +230,9 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
     }
     for (const ContactDescription& contact : description.contacts)
         built.contacts.push_back(assignment_of(model, contact, registry));
+    for (const ContactAssignment& contact : built.contacts)
+        if (contact.surface_body)
+            model.bodies[*contact.surface_body].ground = true;
     return built;
 }
 

@@ -117,8 +117,11 @@ std::vector<HistoryColumn> history_columns(const Model& model)
          "done on the bodies by moving points and obstacles, and kinetic energy of water that came"},
         {"energy_error", "J", "sum of the energies minus their sum at the release and the boundary work"},
         {"maximum_speed", "m/s", "largest speed of a point"},
-        {"front", "m", "largest horizontal distance of a point from the vertical axis through the origin"},
-        {"height", "m", "largest vertical coordinate of a point plus half a spacing"},
+        {"front", "m",
+         "largest horizontal distance of a point from the vertical axis through the origin; points of a body whose "
+         "surface "
+         "others touch do not count"},
+        {"height", "m", "largest vertical coordinate of such a point plus half a spacing"},
         {"inactive_bonds", "-", "bonds that carry no stress because their sub-horizon is degenerate"},
         {"free_grains", "-", "points without an active bond"}};
     for (const Obstacle& obstacle : model.obstacles)
@@ -137,9 +140,12 @@ std::vector<double> history_row(const Model& model, const Dynamics& dynamics, do
     double speed = 0.0;
     double front = 0.0;
     double height = -std::numeric_limits<double>::infinity();
+    const bool ground_alone = std::ranges::all_of(model.bodies, &Body::ground);
     for (std::size_t i = 0; i < model.size(); ++i) {
         const Vector3& x = model.points.position[i];
         speed = std::max(speed, model.points.velocity[i].norm());
+        if (model.body_of(i).ground && !ground_alone)
+            continue;
         front = std::max(front, std::hypot(x.x(), x.y()));
         height = std::max(height, x.z() + 0.5 * model.spacing);
     }

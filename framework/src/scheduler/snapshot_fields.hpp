@@ -33,6 +33,7 @@ private:
 
 /// Columns of every history row, and the row itself in the same order; obstacles add theirs.
 std::vector<HistoryColumn> history_columns(const Model& model);
+/// Front and height are those of what stands on the ground, as far as there is a ground.
 std::vector<double> history_row(const Model& model, const Dynamics& dynamics, double time, double time_step);
 
 } // namespace periporo

@@ -6,6 +6,7 @@
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
 #include "scheduler/held_points.hpp"
+#include "scheduler/snapshot_fields.hpp"
 #include "support/case_text.hpp"
 #include "support/errors.hpp"
 #include "support/plugins.hpp"
@@ -15,6 +16,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -247,6 +250,32 @@ friction = 0
     set_obstacles(made.model, description, description.stages[1]);
     CHECK(made.model.obstacles[0].present);
     CHECK(made.model.obstacles[0].velocity == Vector3::UnitZ());
+}
+
+TEST_CASE("the substrate is the ground, and the column above it makes front and height of the history")
+{
+    PluginRegistry registry;
+    const CaseDescription description =
+        read_case(PERIPORO_SOURCE_DIR "/cases/column_collapse/quickstart_substrate.toml",
+                  {{}, {PERIPORO_BUILD_DIR "/lib/periporo"}}, registry);
+    BuiltModel made = built(description);
+    Model& model = made.model;
+    for (const Body& body : model.bodies)
+        CHECK(body.ground == (body.name == "substrate"));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    ContactForces contact({});
+    const Dynamics dynamics(model, *force, contact, {});
+    const std::vector<HistoryColumn> columns = history_columns(model);
+    const auto value = [&](const std::string& name) {
+        const auto at = std::ranges::find(columns, name, &HistoryColumn::name);
+        REQUIRE(at != columns.end());
+        return history_row(model, dynamics, 0.0, 0.0)[static_cast<std::size_t>(at - columns.begin())];
+    };
+    CHECK(value("front") == doctest::Approx(0.095 * std::sqrt(2.0))); // the corner of the column
+    CHECK(value("height") == doctest::Approx(0.12));
+    for (Body& body : model.bodies)
+        body.ground = true;
+    CHECK(value("front") > 0.2); // that of the substrate
 }
 
 TEST_CASE("a contact law that cannot act where it stands is an error of the case")
