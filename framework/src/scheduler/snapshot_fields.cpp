@@ -119,8 +119,7 @@ std::vector<HistoryColumn> history_columns(const Model& model)
         {"maximum_speed", "m/s", "largest speed of a point"},
         {"front", "m",
          "largest horizontal distance of a point from the vertical axis through the origin; points of a body whose "
-         "surface "
-         "others touch do not count"},
+         "surface others touch do not count"},
         {"height", "m", "largest vertical coordinate of such a point plus half a spacing"},
         {"inactive_bonds", "-", "bonds that carry no stress because their sub-horizon is degenerate"},
         {"free_grains", "-", "points without an active bond"}};
