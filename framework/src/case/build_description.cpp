@@ -5,6 +5,7 @@
 #include "case/build_description.hpp"
 
 #include "case/plane.hpp"
+#include "case/table_values.hpp"
 
 #include <optional>
 
@@ -23,16 +24,6 @@ Eigen::Matrix3d symmetric_matrix_of(const std::vector<double>& list)
     matrix << list.at(0), list.at(3), list.at(5), list.at(3), list.at(1), list.at(4), list.at(5), list.at(4),
         list.at(2);
     return matrix;
-}
-
-std::optional<double> optional_real(const Parameters& values, const std::string& name)
-{
-    return values.has(name) ? std::optional(values.real(name)) : std::nullopt;
-}
-
-PluginChoice plugin_choice(const CheckedTable& table, const std::string& selector)
-{
-    return {table.own.text(selector), table.plugin};
 }
 
 DiscretizationDescription discretization_of(const CheckedTable& table)

@@ -1,12 +1,15 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What checks between tables look at. Values that were wrong themselves are absent and are passed over.
+// How values are taken from checked tables: by the checks between tables, for which values that were wrong themselves
+// are absent, and by those who move them to where they belong.
 #pragma once
 
 #include "case/checker.hpp"
+#include "case/description.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -39,6 +42,17 @@ inline std::vector<std::string> names_of(const std::vector<CheckedTable>& tables
 inline bool contains(const std::vector<std::string>& names, const std::string& name)
 {
     return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+inline std::optional<double> optional_real(const Parameters& values, const std::string& name)
+{
+    return values.has(name) ? std::optional(values.real(name)) : std::nullopt;
+}
+
+/// @param selector key that names the plugin
+inline PluginChoice plugin_choice(const CheckedTable& table, const std::string& selector)
+{
+    return {table.own.text(selector), table.plugin};
 }
 
 } // namespace periporo

@@ -4,16 +4,13 @@
 // Moves checked values to where they belong.
 #include "drive/build_path.hpp"
 
+#include "case/table_values.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace periporo {
 namespace {
-
-std::optional<double> optional_real(const Parameters& values, const std::string& name)
-{
-    return values.has(name) ? std::optional(values.real(name)) : std::nullopt;
-}
 
 SymmetricTensor<double> initial_stress_of(const Parameters& initial)
 {
@@ -120,9 +117,9 @@ PathDescription build_path(const CheckedTable& root)
     path.title = root.own.text("title");
     const CheckedTable& material = root.one("material");
     path.material_name = material.name;
-    path.model = {material.own.text("model"), material.plugin};
+    path.model = plugin_choice(material, "model");
     for (const CheckedTable& curve : material.all("retention"))
-        path.retention = {curve.own.text("curve"), curve.plugin};
+        path.retention = plugin_choice(curve, "curve");
     path.grain_density = optional_real(material.own, "grain_density");
     path.porosity = optional_real(material.own, "porosity");
     const CheckedTable& initial = root.one("initial");
