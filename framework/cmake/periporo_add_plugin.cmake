@@ -9,8 +9,10 @@
 # ctest knows it as `<kind>.<name>`. The plugins of the project itself are made by this same function.
 include(GNUInstallDirs)
 
-# The pack algebra of operator and laws is many small functions, which GCC stops inlining at its default limits.
+# The pack algebra of operator and laws is many small functions, which GCC stops inlining at its default limits. Its
+# global elimination of common subexpressions keeps more packs alive than there are registers.
 set(PERIPORO_PACK_OPTIONS
+  $<$<CXX_COMPILER_ID:GNU>:-fno-gcse>
   $<$<CXX_COMPILER_ID:GNU>:--param=max-inline-insns-single=2000>
   $<$<CXX_COMPILER_ID:GNU>:--param=max-inline-insns-auto=400>
   $<$<CXX_COMPILER_ID:GNU>:--param=inline-unit-growth=400>

@@ -48,6 +48,7 @@ public:
     Real mean_stress{0.0};       ///< p [Pa]
     Real shear_factor{1.0};      ///< q/q_trial [-]
 
+    /// @param trial must live as long as the map
     ReturnMap(const ReturnConstants& constants, const ReturnInput<Real>& trial)
         : c_(constants), trial_(trial), drive_(2.0 * trial.mean_stress + constants.tensile_strength)
     {
@@ -196,16 +197,16 @@ private:
     }
 
     ReturnConstants c_;
-    ReturnInput<Real> trial_;
-    Real drive_;                 // 2 p_trial + p_s
-    Real strain_{0.0};           // x
-    Real unfloored_{0.0};        // exp(ln pc_bar_n + h x)
-    Real preconsolidation_{0.0}; // pc_bar
-    Real stiffening_{0.0};       // d pc_bar/dx
-    Real volume_factor_{1.0};    // 1/(1 + 2 K dl)
-    Real coupled_factor_{1.0};   // 1/(dg/dx)
-    Real lower_{0.0};            // R > 0 here
-    Real upper_{unbounded};      // R <= 0 here
+    const ReturnInput<Real>& trial_; // a copy would be a call of memcpy
+    Real drive_;                     // 2 p_trial + p_s
+    Real strain_{0.0};               // x
+    Real unfloored_{0.0};            // exp(ln pc_bar_n + h x)
+    Real preconsolidation_{0.0};     // pc_bar
+    Real stiffening_{0.0};           // d pc_bar/dx
+    Real volume_factor_{1.0};        // 1/(1 + 2 K dl)
+    Real coupled_factor_{1.0};       // 1/(dg/dx)
+    Real lower_{0.0};                // R > 0 here
+    Real upper_{unbounded};          // R <= 0 here
 };
 
 } // namespace periporo
