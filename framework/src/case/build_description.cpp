@@ -98,11 +98,6 @@ BodyDescription body_of(const CheckedTable& table)
     return body;
 }
 
-std::vector<std::string> optional_texts(const Parameters& values, const std::string& name)
-{
-    return values.has(name) ? values.text_list(name) : std::vector<std::string>{};
-}
-
 std::string optional_text(const Parameters& values, const std::string& name)
 {
     return values.has(name) ? values.text(name) : std::string();
@@ -161,9 +156,8 @@ StageDescription stage_of(const CheckedTable& table)
     stage.type = table.own.text("type");
     const Parameters& until = table.one("until").own;
     if (stage.type == "quasi_static") {
-        if (table.own.has("rollers"))
-            for (const std::string& plane : table.own.text_list("rollers"))
-                stage.rollers.push_back(parse_plane(plane));
+        for (const std::string& plane : optional_texts(table.own, "rollers"))
+            stage.rollers.push_back(parse_plane(plane));
         stage.residual = until.real("residual");
         stage.damping = table.own.real("damping");
         stage.maximum_steps = table.own.integer("maximum_steps");
@@ -231,10 +225,8 @@ CaseDescription build_description(const CheckedTable& root)
     const Parameters& run = root.one("run").own;
     description.checkpoint_every = run.real("checkpoint_every");
     description.history_every = run.real("history_every");
-    const Parameters& plugins = root.one("plugins").own;
-    if (plugins.has("paths"))
-        for (const std::string& path : plugins.text_list("paths"))
-            description.plugin_paths.emplace_back(path);
+    for (const std::string& path : optional_texts(root.one("plugins").own, "paths"))
+        description.plugin_paths.emplace_back(path);
     return description;
 }
 

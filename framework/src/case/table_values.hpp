@@ -49,6 +49,11 @@ inline std::optional<double> optional_real(const Parameters& values, const std::
     return values.has(name) ? std::optional(values.real(name)) : std::nullopt;
 }
 
+inline std::vector<std::string> optional_texts(const Parameters& values, const std::string& name)
+{
+    return values.has(name) ? values.text_list(name) : std::vector<std::string>{};
+}
+
 /// @param selector key that names the plugin
 inline PluginChoice plugin_choice(const CheckedTable& table, const std::string& selector)
 {

@@ -46,13 +46,12 @@ MixedStage mixed_of(const CheckedTable& stage)
     MixedStage kind;
     kind.suction = optional_real(stage.own, "suction");
     kind.saturation = optional_real(stage.own, "saturation");
-    const std::vector<std::string> held =
-        stage.own.has("held_stress") ? stage.own.text_list("held_stress") : std::vector<std::string>{};
+    const std::vector<std::string> held = optional_texts(stage.own, "held_stress");
     for (std::size_t c = 0; c < 6; ++c) {
         const std::string name = symmetric_component_names[c];
         kind.stress[c] = optional_real(stage.one("stress").own, name);
         kind.strain[c] = optional_real(stage.one("strain").own, name).value_or(0.0);
-        kind.stress_held[c] = std::find(held.begin(), held.end(), name) != held.end();
+        kind.stress_held[c] = contains(held, name);
     }
     return kind;
 }
@@ -131,10 +130,8 @@ PathDescription build_path(const CheckedTable& root)
     for (const Parameter& record : state.records)
         if (state.own.has(record.name))
             path.state[record.name] = state.own.real(record.name);
-    const Parameters& plugins = root.one("plugins").own;
-    if (plugins.has("paths"))
-        for (const std::string& folder : plugins.text_list("paths"))
-            path.plugin_paths.emplace_back(folder);
+    for (const std::string& folder : optional_texts(root.one("plugins").own, "paths"))
+        path.plugin_paths.emplace_back(folder);
     for (const CheckedTable& stage : root.all("stage"))
         path.stages.push_back(stage_of(stage));
     return path;
