@@ -6,6 +6,7 @@
 #include "operator/bond_forces.hpp"
 #include "operator/bond_update.hpp"
 #include "operator/bond_vector.hpp"
+#include "operator/thread_buffers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -291,8 +292,8 @@ void Evaluator::add_at_ends(std::size_t point, std::size_t block, const HeldBond
 void Evaluator::update_stress(std::size_t point, std::size_t block, OperatorSamples& samples)
 {
     SampledTimes times(samples, point);
-    thread_local StressWorkspace workspace; // both only ever grow
-    thread_local std::vector<KeptBonds> kept;
+    auto& workspace = thread_buffers<StressWorkspace>();
+    auto& kept = thread_buffers<std::vector<KeptBonds>>();
     const HeldBonds held = model_.held(point);
     BondStress stress(model_, point, held.neighbours, held.packs, held.state, evaluation_, workspace);
     kept.clear();

@@ -5,6 +5,7 @@
 
 #include "operator/bond_forces.hpp"
 #include "operator/bond_update.hpp"
+#include "operator/thread_buffers.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -94,7 +95,7 @@ void PointCorrespondenceForceState::evaluate(Model& model, const Evaluation& eva
     BondForces::prepare(model);
 #pragma omp parallel
     {
-        thread_local StressWorkspace workspace; // only ever grows
+        auto& workspace = thread_buffers<StressWorkspace>();
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
             BondForces forces(model, block);

@@ -7,6 +7,7 @@
 #include "operator/bond_update.hpp"
 #include "operator/bond_vector.hpp"
 #include "operator/sub_horizon_sums.hpp"
+#include "operator/thread_buffers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +52,10 @@ struct Workspace {
         moment_sums.reserve(packs);
         stress.reserve(packs);
     }
+};
+
+struct ShareBuffers {
+    AlignedVector<double> volume, sums;
 };
 
 /// zeta/max(|zeta|^2, l^2): turns a motion between the ends of a bond into a gradient along it.
@@ -227,7 +232,7 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
     BondForces::prepare(model);
 #pragma omp parallel
     {
-        thread_local Workspace w; // only ever grows
+        auto& w = thread_buffers<Workspace>();
         OperatorSamples samples;
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
@@ -268,7 +273,7 @@ void SubHorizonForceState::shares(const Model& model, std::size_t point, std::sp
 {
     const FamilyView family = model.families[point];
     const NeighbourRecord& self = model.records[point];
-    thread_local AlignedVector<double> volume, sums;
+    auto& [volume, sums] = thread_buffers<ShareBuffers>();
     volume.resize(family.count);
     for (std::size_t b = 0; b < family.count; ++b)
         volume[b] = model.records[family.neighbours[b]].volume;
