@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
+#include <span>
 #ifdef __AVX512VBMI2__
 #include <immintrin.h>
 #endif
@@ -75,8 +77,13 @@ public:
 
     std::size_t count() const { return count_; }
 
+    struct Step {
+        std::uint16_t from;
+        std::uint16_t pairs;
+    };
+
     /// The cheapest way to the sum over the sub-horizon of bond b.
-    SubHorizonView::Step step(std::size_t b) const
+    Step step(std::size_t b) const
     {
         std::uint64_t members = 0, others = 0;
         for (std::size_t w = 0; w < words_; ++w) {
@@ -105,7 +112,7 @@ public:
 
     /// Writes the members of a step and returns the place behind the last. Touches `slack` places behind that.
     template <class Member>
-    Member* write_members(std::size_t b, SubHorizonView::Step step, Member* members) const
+    Member* write_members(std::size_t b, Step step, Member* members) const
     {
         Member* enter = members;
         Member* leave = members + step.pairs;
@@ -130,7 +137,7 @@ private:
         return ~std::uint64_t{0} >> (word_bits - bits);
     }
 
-    std::uint64_t before(std::size_t w, SubHorizonView::Step step) const
+    std::uint64_t before(std::size_t w, Step step) const
     {
         return step.from < count_ ? word(w, step.from) : step.from == count_ ? 0 : full(w);
     }
@@ -177,6 +184,34 @@ private:
     std::vector<std::uint64_t> bits_;
 };
 
+/// Finds the ways to all sums of one family and sorts them by their pairs.
+class ChangeOrder {
+public:
+    /// Fills `from` and `changes`; returns all pairs.
+    std::size_t find(const Membership& membership, std::uint16_t* from, std::span<SubHorizonView::Change> changes)
+    {
+        const std::size_t count = changes.size();
+        pairs_.resize(count);
+        first_.assign(count + 2, 0); // no sum takes more pairs than there are members
+        std::size_t all = 0;
+        for (std::size_t b = 0; b < count; ++b) {
+            const Membership::Step step = membership.step(b);
+            from[b] = step.from;
+            pairs_[b] = step.pairs;
+            ++first_[step.pairs + std::size_t{1}];
+            all += step.pairs;
+        }
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        for (std::size_t b = 0; b < count; ++b)
+            changes[first_[pairs_[b]]++] = {static_cast<std::uint16_t>(b), pairs_[b]};
+        return all;
+    }
+
+private:
+    std::vector<std::uint16_t> pairs_;
+    std::vector<std::uint16_t> first_; // of the changes with so many pairs
+};
+
 } // namespace
 
 SubHorizons SubHorizons::find(const Points& points, const IsometryTable& isometries, const Families& families,
@@ -184,28 +219,27 @@ SubHorizons SubHorizons::find(const Points& points, const IsometryTable& isometr
 {
     const std::size_t n = families.points();
     SubHorizons result;
-    result.first_step_.assign(n + 1, 0);
+    result.first_bond_.assign(n + 1, 0);
     result.first_byte_.assign(n, 0);
     for (std::size_t i = 0; i < n; ++i)
-        result.first_step_[i + 1] = result.first_step_[i] + families[i].count;
-    result.steps_.resize(result.first_step_[n]);
+        result.first_bond_[i + 1] = result.first_bond_[i] + families[i].count;
+    result.from_.resize(result.first_bond_[n]);
+    result.changes_.resize(result.first_bond_[n]);
     // Members of a block of points go to a buffer of the block; the buffers are joined in order.
     const std::size_t blocks = (n + chunk - 1) / chunk;
     std::vector<std::vector<std::uint8_t>> found(blocks);
 #pragma omp parallel
     {
         Membership membership;
+        ChangeOrder order;
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t block = 0; block < blocks; ++block) {
             std::vector<std::uint8_t>& members = found[block];
             for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
                 membership.find(points, isometries, families, i, horizon);
-                SubHorizonView::Step* steps = result.steps_.data() + result.first_step_[i];
-                std::size_t pairs = 0;
-                for (std::size_t b = 0; b < membership.count(); ++b) {
-                    steps[b] = membership.step(b);
-                    pairs += steps[b].pairs;
-                }
+                std::uint16_t* from = result.from_.data() + result.first_bond_[i];
+                const std::span changes(result.changes_.data() + result.first_bond_[i], membership.count());
+                const std::size_t pairs = order.find(membership, from, changes);
                 const bool wide = SubHorizonView{membership.count()}.wide();
                 const std::size_t first = members.size() + members.size() % 2;
                 result.first_byte_[i] = first; // in the buffer of the block
@@ -213,8 +247,8 @@ SubHorizons SubHorizons::find(const Points& points, const IsometryTable& isometr
                 const std::size_t bytes = 2 * pairs * member;
                 members.resize(first + bytes + slack * member);
                 const auto write = [&](auto* next) {
-                    for (std::size_t b = 0; b < membership.count(); ++b)
-                        next = membership.write_members(b, steps[b], next);
+                    for (const auto [bond, its_pairs] : changes)
+                        next = membership.write_members(bond, {from[bond], its_pairs}, next);
                 };
                 if (wide)
                     write(reinterpret_cast<std::uint16_t*>(members.data() + first));
@@ -239,8 +273,8 @@ SubHorizons SubHorizons::find(const Points& points, const IsometryTable& isometr
 
 std::size_t SubHorizons::memory() const
 {
-    return steps_.capacity() * sizeof(SubHorizonView::Step) + members_.capacity() +
-           (first_step_.capacity() + first_byte_.capacity()) * sizeof(std::size_t);
+    return from_.capacity() * sizeof(std::uint16_t) + changes_.capacity() * sizeof(SubHorizonView::Change) +
+           members_.capacity() + (first_bond_.capacity() + first_byte_.capacity()) * sizeof(std::size_t);
 }
 
 } // namespace periporo

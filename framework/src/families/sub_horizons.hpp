@@ -18,14 +18,18 @@ namespace periporo {
 /// sums follow with some 1,300 pairs of an addition and a subtraction. Twins, members 2m and 2m + 1, lie side by side
 /// on the space-filling curve and mostly come and go together: they count as one.
 struct SubHorizonView {
-    struct Step {
-        std::uint16_t from;  ///< an earlier bond, or count: start from nothing, or count + 1: from the whole family
+    struct Change {
+        std::uint16_t bond;
         std::uint16_t pairs; ///< as many enter as leave
     };
-    std::size_t count = 0;       ///< bonds
-    const Step* steps = nullptr; ///< one a bond
-    /// For each bond `pairs` that enter, then `pairs` that leave: member m < count, nobody (count), or the twins 2m and
-    /// 2m + 1 (first_twins() + m). Two bytes each if wide().
+    std::size_t count = 0; ///< bonds
+    /// For each bond the earlier one that its sum follows from, or count: from nothing, or count + 1: from the whole
+    /// family.
+    const std::uint16_t* from = nullptr;
+    /// One a bond, those with fewer pairs first: loops over pairs that end where the last one ended are predicted.
+    const Change* changes = nullptr;
+    /// For each change `pairs` that enter, then `pairs` that leave: member m < count, nobody (count), or the twins 2m
+    /// and 2m + 1 (first_twins() + m). Two bytes each if wide().
     const std::uint8_t* members = nullptr;
 
     std::size_t twins() const { return count / 2; }
@@ -49,7 +53,8 @@ public:
 
     SubHorizonView operator[](std::size_t point) const
     {
-        return {first_step_[point + 1] - first_step_[point], steps_.data() + first_step_[point],
+        const std::size_t first = first_bond_[point];
+        return {first_bond_[point + 1] - first, from_.data() + first, changes_.data() + first,
                 members_.data() + first_byte_[point]};
     }
 
@@ -57,8 +62,9 @@ public:
     std::size_t memory() const;
 
 private:
-    std::vector<SubHorizonView::Step> steps_;
-    std::vector<std::size_t> first_step_; // points + 1
+    std::vector<std::uint16_t> from_;
+    std::vector<SubHorizonView::Change> changes_;
+    std::vector<std::size_t> first_bond_; // points + 1
     AlignedVector<std::uint8_t> members_;
     std::vector<std::size_t> first_byte_; // points
 };

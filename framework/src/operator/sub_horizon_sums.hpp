@@ -54,44 +54,42 @@ void sum_sub_horizons(const SubHorizonView& sub_horizons, BondRows<values, tail>
 {
     constexpr std::size_t packs = values / pack_width;
     const std::size_t count = sub_horizons.count;
-    std::fill_n(features.row(count), values, 0.0);
-    std::fill_n(sums.row(count), values, 0.0);
+    double* const feature = features.rows.data();
+    double* const sum = sums.rows.data();
+    double* const feature_tail = features.column.data();
+    double* const sum_tail = sums.column.data();
+    std::fill_n(feature + count * values, values, 0.0);
+    std::fill_n(sum + count * values, values, 0.0);
     const std::size_t twins = sub_horizons.twins();
     std::array<Pack, packs> all;
     for (std::size_t v = 0; v < packs; ++v) // the last member, when it has no twin
-        all[v] = load_pack(features.row(2 * twins) + v * pack_width);
-    for (std::size_t m = 0; m < twins; ++m)
+        all[v] = load_pack(feature + 2 * twins * values + v * pack_width);
+    for (std::size_t m = 0; m < twins; ++m) {
+        const double* const lower = feature + 2 * m * values;
+        double* const both = feature + (sub_horizons.first_twins() + m) * values;
         for (std::size_t v = 0; v < packs; ++v) {
-            const Pack both =
-                load_pack(features.row(2 * m) + v * pack_width) + load_pack(features.row(2 * m + 1) + v * pack_width);
-            store_pack(both, features.row(sub_horizons.first_twins() + m) + v * pack_width);
-            all[v] += both;
+            const Pack pair = load_pack(lower + v * pack_width) + load_pack(lower + values + v * pack_width);
+            store_pack(pair, both + v * pack_width);
+            all[v] += pair;
         }
+    }
     for (std::size_t v = 0; v < packs; ++v)
-        store_pack(all[v], sums.row(count + 1) + v * pack_width);
+        store_pack(all[v], sum + (count + 1) * values + v * pack_width);
     if constexpr (tail)
-        prepare_column(sub_horizons, features.column.data(), sums.column.data());
-    const double* feature = features.rows.data();
-    double* const sum = sums.rows.data();
-    const double* feature_tail = features.column.data();
-    double* const sum_tail = sums.column.data();
+        prepare_column(sub_horizons, feature_tail, sum_tail);
     sub_horizons.with_members([&](auto* member) {
-        for (std::size_t b = 0; b < count; ++b) {
-            const SubHorizonView::Step step = sub_horizons.steps[b];
+        for (std::size_t c = 0; c < count; ++c) {
+            const SubHorizonView::Change change = sub_horizons.changes[c];
             // two accumulators: what enters and what leaves do not wait for each other
             std::array<Pack, packs> enter, leave;
+            enter.fill(Pack(0.0));
+            leave.fill(Pack(0.0));
             double enter_tail = 0.0;
             double leave_tail = 0.0;
-            for (std::size_t v = 0; v < packs; ++v) {
-                enter[v] = load_pack(sum + step.from * values + v * pack_width);
-                leave[v] = 0.0;
-            }
-            if constexpr (tail)
-                enter_tail = sum_tail[step.from];
-            const auto* leaving = member + step.pairs;
+            const auto* leaving = member + change.pairs;
             for (const auto* entering = member; entering != leaving; ++entering) {
                 const std::size_t in = entering[0];
-                const std::size_t out = entering[step.pairs];
+                const std::size_t out = entering[change.pairs];
                 const double* const entered = feature + in * values;
                 const double* const left = feature + out * values;
 #pragma GCC unroll 8
@@ -104,15 +102,24 @@ void sum_sub_horizons(const SubHorizonView& sub_horizons, BondRows<values, tail>
                     leave_tail += feature_tail[out];
                 }
             }
-            member = leaving + step.pairs;
+            member = leaving + change.pairs;
             for (std::size_t v = 0; v < packs; ++v)
-                store_pack(enter[v] - leave[v], sum + b * values + v * pack_width);
+                store_pack(enter[v] - leave[v], sum + change.bond * values + v * pack_width);
             if constexpr (tail)
-                sum_tail[b] = enter_tail - leave_tail;
+                sum_tail[change.bond] = enter_tail - leave_tail;
         }
     });
+    for (std::size_t b = 0; b < count; ++b) {
+        const std::size_t from = sub_horizons.from[b];
+        for (std::size_t v = 0; v < packs; ++v) {
+            double* const row = sum + b * values + v * pack_width;
+            store_pack(load_pack(row) + load_pack(sum + from * values + v * pack_width), row);
+        }
+        if constexpr (tail)
+            sum_tail[b] += sum_tail[from];
+    }
     const std::size_t lanes = (count + pack_width - 1) / pack_width * pack_width;
-    std::fill(sums.row(count), sums.row(lanes), 0.0);
+    std::fill(sum + count * values, sum + lanes * values, 0.0);
     if constexpr (tail)
         std::fill(sum_tail + count, sum_tail + lanes, 0.0);
 }
@@ -126,18 +133,20 @@ inline void sum_sub_horizons(const SubHorizonView& sub_horizons, AlignedVector<d
     sums.resize(count + 2);
     prepare_column(sub_horizons, values.data(), sums.data());
     sub_horizons.with_members([&](auto* member) {
-        for (std::size_t b = 0; b < count; ++b) {
-            const SubHorizonView::Step step = sub_horizons.steps[b];
-            double enter = sums[step.from];
+        for (std::size_t c = 0; c < count; ++c) {
+            const SubHorizonView::Change change = sub_horizons.changes[c];
+            double enter = 0.0;
             double leave = 0.0;
-            for (std::size_t m = 0; m < step.pairs; ++m, ++member) {
+            for (std::size_t m = 0; m < change.pairs; ++m, ++member) {
                 enter += values[member[0]];
-                leave += values[member[step.pairs]];
+                leave += values[member[change.pairs]];
             }
-            member += step.pairs;
-            sums[b] = enter - leave;
+            member += change.pairs;
+            sums[change.bond] = enter - leave;
         }
     });
+    for (std::size_t b = 0; b < count; ++b)
+        sums[b] += sums[sub_horizons.from[b]];
 }
 
 } // namespace periporo
