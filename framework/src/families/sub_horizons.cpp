@@ -94,7 +94,9 @@ public:
         const std::uint64_t from = others < members ? count_ + 1 : count_;
 
         const std::size_t first = b > window ? b - window : 0;
-        std::uint64_t enter[window] = {}, leave[window] = {}; // as wide as the words, so that one loop is one vector
+        // as wide as the words, so that one loop is one vector
+        std::uint64_t enter[window] = {}, leave[window] = {};
+        std::fill(enter + (b - first), enter + window, std::uint64_t{1} << word_bits / 2); // there are no such bonds
         for (std::size_t w = 0; w < words_; ++w) {
             const std::uint64_t own = word(w, b);
             const std::uint64_t* earlier = bits_.data() + w * count_ + first;
@@ -105,8 +107,10 @@ public:
             }
         }
         std::uint64_t cheapest = best << 16 | from; // pairs above, where from below
-        for (std::size_t a = 0; a < window; ++a)
-            cheapest = std::min(cheapest, a < b - first ? std::max(enter[a], leave[a]) << 16 | (first + a) : cheapest);
+        for (std::size_t a = 0; a < window; ++a) {
+            const std::uint64_t way = (enter[a] > leave[a] ? enter[a] : leave[a]) << 16 | (first + a);
+            cheapest = way < cheapest ? way : cheapest;
+        }
         return {static_cast<std::uint16_t>(cheapest), static_cast<std::uint16_t>(cheapest >> 16)};
     }
 

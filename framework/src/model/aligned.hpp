@@ -25,7 +25,24 @@ struct CacheLineAllocator {
     friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
+/// The same for vectors whose numbers are all set before they are read: nothing is written to those that are added.
+template <class Value>
+struct UnsetAllocator : CacheLineAllocator<Value> {
+    UnsetAllocator() = default;
+    template <class Other>
+    UnsetAllocator(const UnsetAllocator<Other>&)
+    {
+    }
+    template <class Other>
+    void construct(Other* p)
+    {
+        new (p) Other;
+    }
+};
+
 template <class Value>
 using AlignedVector = std::vector<Value, CacheLineAllocator<Value>>;
+template <class Value>
+using UnsetVector = std::vector<Value, UnsetAllocator<Value>>;
 
 } // namespace periporo

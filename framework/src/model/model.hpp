@@ -45,7 +45,7 @@ struct alignas(64) NeighbourRecord {
 struct BondData {
     /// For each point the packs of the bonds that it holds, for each pack `rows` rows of pack_width: effective stress,
     /// then state variables.
-    AlignedVector<double> state;
+    UnsetVector<double> state;
     std::vector<std::size_t> first;   ///< of a point, in `state`
     std::vector<std::uint8_t> active; ///< for each pack of a family one bit a bond: does it carry stress?
 

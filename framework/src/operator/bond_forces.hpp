@@ -67,19 +67,19 @@ private:
     template <class Concerns>
     void take(const std::uint16_t* place, std::size_t bonds, const std::array<Pack, 3>& force, Concerns&& concerns)
     {
-        alignas(64) double lanes[3][pack_width];
-        for (std::size_t c = 0; c < 3; ++c)
-            store_pack(force[c], lanes[c]);
+        alignas(64) double rows[pack_width * place_stride];
+        store_rows_of_lanes(force, rows);
         for (std::size_t lane = 0; lane < bonds; ++lane) {
             if (!concerns(lane))
                 continue;
             double* at = places_ + place[lane] * place_stride;
-            for (std::size_t c = 0; c < 3; ++c)
-                at[c] -= lanes[c][lane];
+            (load_place(at) - load_place(rows + lane * place_stride)).copy_to(at, std::experimental::vector_aligned);
         }
     }
 
     static constexpr std::size_t place_stride = 4;
+    using Place = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, place_stride>>;
+    static Place load_place(const double* at) { return Place(at, std::experimental::vector_aligned); }
 
     const Halos& halos_;
     std::size_t first_point_;

@@ -87,4 +87,24 @@ inline void store_transposed(const std::array<Pack, values>& packs, double* rows
     }
 }
 
+/// Three packs as one row for each lane: a value of each, then zero.
+inline void store_rows_of_lanes(const std::array<Pack, 3>& packs, double* rows)
+{
+    using detail::PackLanes;
+    constexpr auto lanes = std::make_index_sequence<pack_width>();
+    const auto x = std::bit_cast<PackLanes>(packs[0]);
+    const auto y = std::bit_cast<PackLanes>(packs[1]);
+    const auto z = std::bit_cast<PackLanes>(packs[2]);
+    const PackLanes zero{};
+    const std::array<PackLanes, 2> xz{detail::interleaved<false>(x, z, lanes), detail::interleaved<true>(x, z, lanes)};
+    const std::array<PackLanes, 2> y0{detail::interleaved<false>(y, zero, lanes),
+                                      detail::interleaved<true>(y, zero, lanes)};
+    for (std::size_t half = 0; half < 2; ++half) {
+        const PackLanes lower = detail::interleaved<false>(xz[half], y0[half], lanes);
+        const PackLanes upper = detail::interleaved<true>(xz[half], y0[half], lanes);
+        store_pack(std::bit_cast<Pack>(lower), rows + 2 * half * pack_width);
+        store_pack(std::bit_cast<Pack>(upper), rows + (2 * half + 1) * pack_width);
+    }
+}
+
 } // namespace periporo
