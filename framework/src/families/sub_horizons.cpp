@@ -22,6 +22,7 @@ constexpr std::size_t chunk = 64;
 /// are found among the last; looking at all of them would save 3 per cent of the pairs.
 constexpr std::size_t window = 32;
 constexpr std::size_t word_bits = 64;
+constexpr std::uint64_t no_way = std::uint64_t{1} << 32; ///< more pairs than any sum takes
 
 /// n/step for every bit n of a word.
 template <std::size_t step>
@@ -94,9 +95,8 @@ public:
         const std::uint64_t from = others < members ? count_ + 1 : count_;
 
         const std::size_t first = b > window ? b - window : 0;
-        // as wide as the words, so that one loop is one vector
-        std::uint64_t enter[window] = {}, leave[window] = {};
-        std::fill(enter + (b - first), enter + window, std::uint64_t{1} << word_bits / 2); // there are no such bonds
+        std::uint64_t enter[window] = {}, leave[window] = {}; // as wide as the words, so that one loop is one vector
+        std::fill(enter + (b - first), enter + window, no_way);
         for (std::size_t w = 0; w < words_; ++w) {
             const std::uint64_t own = word(w, b);
             const std::uint64_t* earlier = bits_.data() + w * count_ + first;
