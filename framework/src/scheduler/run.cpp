@@ -81,8 +81,7 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     FrequencyEstimate frequency;
     ContactForces contact(std::move(built.contacts));
     contact.find_candidates(model, description.discretization.skin());
-    const StableStep stable =
-        stable_step(model, *force_state, contact, frequency, 40, description.time.safety, 0.0, true);
+    const StableStep stable = stable_step(model, *force_state, contact, frequency, description.time.safety, 0.0, true);
     const double step = description.time.step.value_or(stable.step);
 
     std::string text = fmt::format("{}\n", description.title);

@@ -20,8 +20,6 @@
 namespace periporo {
 namespace {
 
-constexpr int first_iterations = 40; // of the frequency estimate when a stage begins
-constexpr int later_iterations = 8;  // when it is renewed
 constexpr std::uint64_t steps_per_estimate = 50;
 constexpr std::uint64_t steps_per_point_check = 100;
 constexpr double far_overlap = 2.0; // over the reach of a contact: a point lies as deep inside as it should lie outside
@@ -156,7 +154,7 @@ void Simulation::begin_stage()
     water_.begin_stage(model_, stage);
     dynamics_.book(water_.follow(model_, 0.0));
     dynamics_.start();
-    renew_step(first_iterations);
+    renew_step();
     if (!is_quasi_static(stage) && !at_.ledger_open) {
         dynamics_.open_ledger();
         at_.ledger_open = true;
@@ -211,14 +209,14 @@ void Simulation::report_contacts()
                        c, fmt::join(description_.contacts[c].between, " and "), deepest[c]);
 }
 
-void Simulation::renew_step(int iterations)
+void Simulation::renew_step()
 {
     if (description_.time.step) {
         at_.time_step = *description_.time.step;
         return;
     }
     const StageDescription& stage = description_.stages[at_.stage];
-    StableStep stable = stable_step(model_, *force_state_, contact_, frequency_, iterations, description_.time.safety,
+    StableStep stable = stable_step(model_, *force_state_, contact_, frequency_, description_.time.safety,
                                     at_.time_step, !is_quasi_static(stage));
     if (is_quasi_static(stage))
         stable.step *= local_damping_factor(stage.damping);
@@ -232,7 +230,7 @@ void Simulation::renew_step(int iterations)
 void Simulation::take_step(const StepOptions& options)
 {
     if (at_.stage_step > 0 && at_.stage_step % steps_per_estimate == 0)
-        dynamics_.times().time(Phase::step_estimate, [&] { renew_step(later_iterations); });
+        dynamics_.times().time(Phase::step_estimate, [&] { renew_step(); });
     StepOptions with_step = options;
     with_step.time_step = at_.time_step;
     dynamics_.book(water_.follow(model_, at_.time + at_.time_step - at_.stage_start));

@@ -44,7 +44,7 @@ private:
     /// Returns false when interrupted.
     bool quasi_static(const StageDescription& stage);
     bool dynamic(const StageDescription& stage);
-    void renew_step(int iterations);
+    void renew_step();
     void take_step(const StepOptions& options);
     void check_points();
     bool stop_here();

@@ -77,59 +77,72 @@ void tangent(Model& model, const ForceState& force_state, std::span<const Eigen:
         result[i] += grounded[i] * displacement[i];
 }
 
+struct Ritz {
+    double value = 0.0;
+    Eigen::VectorXd vector; ///< of length 1, in the basis
+};
+
+Ritz highest_ritz(const Eigen::MatrixXd& projected)
+{
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(projected);
+    Eigen::Index highest = 0;
+    const double value = solver.eigenvalues().real().maxCoeff(&highest);
+    return {value, solver.eigenvectors().col(highest).real().normalized()};
+}
+
 } // namespace
 
-double FrequencyEstimate::update(Model& model, const ForceState& force_state, int iterations,
-                                 std::span<const Eigen::Matrix3d> grounded)
+double FrequencyEstimate::update(Model& model, const ForceState& force_state, std::span<const Eigen::Matrix3d> grounded)
 {
     const Points& points = model.points;
     velocity_ = points.velocity;
-    basis_.resize(static_cast<std::size_t>(iterations) + 1);
-    for (Vectors& vector : basis_)
-        vector.resize(model.size());
-    // the vector to be added to the basis lies behind those that it has
-    Vectors& first = basis_.front();
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < model.size(); ++i)
-        first[i] = scattered(i);
-    normalize(points, first);
-    if (mode_.size() == model.size())
-        add(first, 1.0, mode_);
-
-    Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(iterations, iterations);
-    Eigen::Index size = 0;
-    while (size < iterations && normalize(points, basis_[static_cast<std::size_t>(size)])) {
-        Vectors& image = basis_[static_cast<std::size_t>(size) + 1];
-        tangent(model, force_state, grounded, basis_[static_cast<std::size_t>(size)], image);
+    Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(most_evaluations, most_evaluations);
+    Ritz highest;
+    begin_basis(points);
+    for (evaluations_ = 0; evaluations_ < most_evaluations && normalize(points, basis(evaluations_));) {
+        const Eigen::Index column = evaluations_++;
+        Vectors& image = basis(evaluations_);
+        image.resize(model.size());
+        tangent(model, force_state, grounded, basis(column), image);
         const double before = std::sqrt(mass_product(points, image, image));
-        for (Eigen::Index row = 0; row <= size; ++row) {
-            projected(row, size) = mass_product(points, basis_[static_cast<std::size_t>(row)], image);
-            add(image, -projected(row, size), basis_[static_cast<std::size_t>(row)]);
+        for (Eigen::Index row = 0; row <= column; ++row) {
+            projected(row, column) = mass_product(points, basis(row), image);
+            add(image, -projected(row, column), basis(row));
         }
         const double left = std::sqrt(mass_product(points, image, image));
-        ++size;
-        if (size == iterations || left <= invariant * before)
+        highest = highest_ritz(projected.topLeftCorner(evaluations_, evaluations_));
+        if (left <= invariant * before || left * std::abs(highest.vector[column]) <= residual * highest.value)
             break;
-        projected(size, size - 1) = left;
+        if (evaluations_ < most_evaluations)
+            projected(evaluations_, column) = left;
     }
     model.points.velocity = velocity_;
     model.update_records();
-    if (size == 0)
+    if (evaluations_ == 0)
         return 0.0;
 
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(projected.topLeftCorner(size, size));
-    Eigen::Index highest = 0;
-    solver.eigenvalues().real().maxCoeff(&highest);
-    const Eigen::VectorXd weights = solver.eigenvectors().col(highest).real();
     mode_.assign(model.size(), Vector3::Zero());
-    for (Eigen::Index b = 0; b < size; ++b)
-        add(mode_, weights[b], basis_[static_cast<std::size_t>(b)]);
+    for (Eigen::Index b = 0; b < evaluations_; ++b)
+        add(mode_, highest.vector[b], basis(b));
     normalize(points, mode_);
-    return std::sqrt(std::max(solver.eigenvalues().real()[highest], 0.0));
+    return std::sqrt(std::max(highest.value, 0.0));
+}
+
+void FrequencyEstimate::begin_basis(const Points& points)
+{
+    basis_.resize(most_evaluations + 1);
+    Vectors& first = basis_.front();
+    first.resize(points.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < first.size(); ++i)
+        first[i] = scattered(i);
+    normalize(points, first);
+    if (mode_.size() == first.size())
+        add(first, 1.0, mode_);
 }
 
 StableStep stable_step(Model& model, const ForceState& force_state, ContactForces& contact, FrequencyEstimate& estimate,
-                       int iterations, double safety, double last_step, bool damped)
+                       double safety, double last_step, bool damped)
 {
     StableStep result;
     result.wave_limit = std::numeric_limits<double>::infinity();
@@ -145,7 +158,7 @@ StableStep stable_step(Model& model, const ForceState& force_state, ContactForce
     std::ranges::transform(bounds, grounded.begin(), [damping](const ContactBound& bound) -> Eigen::Matrix3d {
         return bound.stiffness + damping * bound.damping;
     });
-    const double together = std::pow(estimate.update(model, force_state, iterations, grounded), 2);
+    const double together = std::pow(estimate.update(model, force_state, grounded), 2);
     if (damped)
         result.damping_rate = ordered_sums<1>(model.size(), [&](std::size_t i, std::array<double, 1>& sum) {
             sum[0] += model.points.mass[i] * estimate.mode()[i].dot(bounds[i].damping * estimate.mode()[i]);
