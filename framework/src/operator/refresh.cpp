@@ -125,19 +125,34 @@ void add_bonds_of_others(const Model& model, std::size_t point, std::span<const 
     }
 }
 
-/// Adds shares times rows of the bonds that the point holds.
-void add_held_bonds(const Model& model, std::size_t point, std::span<const double> shares, double* state)
+/// Adds shares times rows of the bonds that the point holds. States are read in the order in which they lie.
+void add_held_bonds(const Model& model, std::size_t point, std::span<const double> shares, AlignedVector<double>& sums,
+                    double* state)
 {
     const ConstHeldBonds held = model.held(point);
-    for (std::size_t r = 0; r < held.rows; ++r) {
-        Pack sum = 0.0;
-        for (std::size_t p = 0; p < held.packs; ++p) {
-            alignas(64) double lanes[pack_width] = {};
-            std::copy_n(shares.data() + held.first + p * pack_width, held.bonds_in(p), lanes);
-            sum += load_pack(lanes) * load_pack(held.state + (p * held.rows + r) * pack_width);
-        }
-        state[r] += reduce(sum);
+    sums.assign(held.rows * pack_width, 0.0);
+    for (std::size_t p = 0; p < held.packs; ++p) {
+        alignas(64) double lanes[pack_width] = {};
+        std::copy_n(shares.data() + held.first + p * pack_width, held.bonds_in(p), lanes);
+        const Pack share = load_pack(lanes);
+        const double* rows = held.state + p * held.rows * pack_width;
+        for (std::size_t at = 0; at < sums.size(); at += pack_width)
+            store_pack(load_pack(&sums[at]) + share * load_pack(rows + at), &sums[at]);
     }
+    for (std::size_t r = 0; r < held.rows; ++r)
+        state[r] += reduce(load_pack(&sums[r * pack_width]));
+}
+
+/// Mean of what a variable of the point began with on its bonds.
+double mean_begun_with(const Model& model, std::size_t point, std::span<const double> shares, std::size_t row)
+{
+    if (!model.has_shared_bonds) // the same on all
+        return begun_with(model, point, 0, row) * std::accumulate(shares.begin(), shares.end(), 0.0);
+    const FamilyView family = model.families[point];
+    double mean = 0.0;
+    for (std::size_t b = 0; b < family.count; ++b)
+        mean += shares[b] * begun_with(model, point, family.neighbours[b], row);
+    return mean;
 }
 
 } // namespace
@@ -148,6 +163,7 @@ void mean_point_states(const Model& model, const ForceState& force_state, std::v
 #pragma omp parallel
     {
         std::vector<double> shares;
+        AlignedVector<double> sums;
 #pragma omp for schedule(dynamic, 64)
         for (std::size_t i = 0; i < model.size(); ++i) {
             double* state = states.data() + i * model.state_stride;
@@ -159,14 +175,9 @@ void mean_point_states(const Model& model, const ForceState& force_state, std::v
             shares.resize(family.packs * pack_width);
             force_state.shares(model, i, shares);
             add_bonds_of_others(model, i, shares, state);
-            add_held_bonds(model, i, shares, state);
-            for (const std::size_t r : of_point[model.points.body[i]]) {
-                double change = 0.0;
-                for (std::size_t b = 0; b < family.count; ++b)
-                    change += shares[b] *
-                              (model.bond_state(i, b)[r * pack_width] - begun_with(model, i, family.neighbours[b], r));
-                state[r] = model.point_state[i * model.state_stride + r] + change;
-            }
+            add_held_bonds(model, i, shares, sums, state);
+            for (const std::size_t r : of_point[model.points.body[i]])
+                state[r] += model.point_state[i * model.state_stride + r] - mean_begun_with(model, i, shares, r);
         }
     }
 }

@@ -273,22 +273,25 @@ void SubHorizonForceState::shares(const Model& model, std::size_t point, std::sp
 {
     const FamilyView family = model.families[point];
     const NeighbourRecord& self = model.records[point];
+    const bool weighed = kind_ != Kind::volume_weighted;
     auto& [volume, sums] = thread_buffers<ShareBuffers>();
-    volume.resize(family.count);
-    for (std::size_t b = 0; b < family.count; ++b)
-        volume[b] = model.records[family.neighbours[b]].volume;
-    sum_sub_horizons(model.sub_horizons[point], volume, sums);
-    std::ranges::fill(shares, 0.0);
-    double total = 0.0;
-    for (std::size_t b = 0; b < family.count; ++b) {
-        if (!model.bonds.is_active(family, b))
-            continue;
-        double squared = 0.0;
+    volume.resize(family.packs * pack_width);
+    for (std::size_t p = 0; p < family.packs; ++p) {
+        const std::uint32_t* neighbours = family.neighbours + p * pack_width;
+        const std::array<Pack, 8> other =
+            load_transposed<8>([&](std::size_t lane) { return model.records[neighbours[lane]].position; });
+        store_pack(other[3], &volume[p * pack_width]);
+        BondVector zeta;
         for (std::size_t c = 0; c < 3; ++c)
-            squared += std::pow(model.records[family.neighbours[b]].position[c] - self.position[c], 2);
-        const double omega = kind_ == Kind::volume_weighted ? 1.0 : influence()(squared);
-        total += shares[b] = omega * (sums[b] + self.volume);
+            zeta[c] = other[c] - self.position[c];
+        const Pack omega = weighed ? influence()(dot(zeta, zeta)) : Pack(1.0);
+        const Pack active = select(lane_mask(model.bonds.active[family.first_pack + p]), omega, Pack(0.0));
+        active.copy_to(&shares[p * pack_width], std::experimental::element_aligned);
     }
+    sum_sub_horizons(model.sub_horizons[point], volume, sums);
+    double total = 0.0;
+    for (std::size_t b = 0; b < family.count; ++b)
+        total += shares[b] *= sums[b] + self.volume;
     if (total > 0.0)
         for (double& share : shares)
             share /= total;
