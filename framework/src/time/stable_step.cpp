@@ -101,6 +101,8 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, st
     begin_basis(points);
     for (evaluations_ = 0; evaluations_ < most_evaluations && normalize(points, basis(evaluations_));) {
         const Eigen::Index column = evaluations_++;
+        if (basis_.size() <= static_cast<std::size_t>(evaluations_))
+            basis_.emplace_back();
         Vectors& image = basis(evaluations_);
         image.resize(model.size());
         tangent(model, force_state, grounded, basis(column), image);
@@ -125,12 +127,14 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, st
     for (Eigen::Index b = 0; b < evaluations_; ++b)
         add(mode_, highest.vector[b], basis(b));
     normalize(points, mode_);
+    basis_.resize(static_cast<std::size_t>(evaluations_) + 1); // a first search takes many more than a renewal
     return std::sqrt(std::max(highest.value, 0.0));
 }
 
 void FrequencyEstimate::begin_basis(const Points& points)
 {
-    basis_.resize(most_evaluations + 1);
+    if (basis_.empty())
+        basis_.emplace_back();
     Vectors& first = basis_.front();
     first.resize(points.size());
 #pragma omp parallel for schedule(static)

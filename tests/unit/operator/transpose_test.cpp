@@ -49,3 +49,17 @@ TEST_CASE("storing undoes loading")
                              back.data());
     CHECK(back == rows);
 }
+
+TEST_CASE("three packs become a row for each lane: a value of each, then zero")
+{
+    std::array<Pack, 3> packs;
+    for (std::size_t c = 0; c < 3; ++c)
+        packs[c] = Pack([&](auto lane) { return 10.0 * static_cast<double>(lane) + static_cast<double>(c) + 1.0; });
+    AlignedVector<double> rows(4 * pack_width, -1.0);
+    store_rows_of_lanes(packs, rows.data());
+    for (std::size_t lane = 0; lane < pack_width; ++lane) {
+        for (std::size_t c = 0; c < 3; ++c)
+            CHECK(rows[4 * lane + c] == packs[c][lane]);
+        CHECK(rows[4 * lane + 3] == 0.0);
+    }
+}
