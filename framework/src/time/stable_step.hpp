@@ -31,8 +31,8 @@ struct StableStep {
 /// directions are left free: they can only lower the highest frequency (Cauchy interlacing).
 class FrequencyEstimate {
 public:
-    /// |K u - omega^2 u| of a Ritz vector of length 1 at which the search ends, over omega^2. A new mode may hide while
-    /// the old one already satisfies this, the longer, the tighter it is: of 172 renewals in a collapsing column
+    /// |K u - omega^2 u| of a Ritz vector of length 1 at which the search ends, over omega^2. While the old mode does
+    /// not satisfy it, a new one has time to show: of 172 renewals in a collapsing column
     /// (`cases/column_collapse/quickstart.toml`) the worst comes out 1.2 per cent short in omega with 0.005, 2.2 with
     /// 0.007 and 6.6 with 0.01, after 6.2, 5.7 and 5.2 evaluations on the mean. Eight each time leave 2.8 to 6.2.
     static constexpr double residual = 0.005;
@@ -56,7 +56,7 @@ private:
 
     Vectors mode_;
     int evaluations_ = 0;
-    // their memory is kept from one time to the next
+    // their memory is kept from one time to the next, that of as many vectors as the last search took
     std::vector<Vectors> basis_;
     Vectors velocity_;
 };

@@ -116,7 +116,9 @@ TEST_CASE("a stiff place that arises away from the last highest mode is found wi
     const double renewed = estimate.update(model, *force);
     const int after_change = estimate.evaluations();
     FrequencyEstimate anew;
-    const double converged = anew.update(model, *force);
+    double converged = 0.0;
+    for (int search = 0; search < 5; ++search) // each goes on from the mode of the last
+        converged = std::max(converged, anew.update(model, *force));
     REQUIRE(converged > 1.2 * before); // the test would see nothing otherwise
     CHECK(renewed > 0.98 * converged);
     // where nothing has changed the value is known again after a few evaluations, and stays where it was
