@@ -110,7 +110,7 @@ inline void set_stress(Model& model, const std::function<SymmetricTensor<double>
 
 inline bool is_active(const Model& model, std::size_t point, std::size_t bond)
 {
-    return model.bonds.is_active(model.families[point], bond);
+    return model.bonds.active.holds(model.families[point], bond);
 }
 
 /// Every force state with every influence function, built for a horizon.

@@ -9,13 +9,12 @@
 
 namespace periporo {
 
-Halos Halos::find(const Families& families)
+void Halos::find(const Families& families)
 {
     const std::size_t n = families.points();
     const std::size_t blocks = (n + block_size - 1) / block_size;
-    Halos halos;
-    halos.place_of_.assign(families.packs() * pack_width, 0);
-    halos.first_arrival_.assign(n + 1, 0);
+    place_of_.assign(families.packs() * pack_width, 0);
+    first_arrival_.assign(n + 1, 0);
     std::vector<std::vector<std::uint32_t>> at_place(blocks); // points and images
 #pragma omp parallel
     {
@@ -24,15 +23,15 @@ Halos Halos::find(const Families& families)
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t block = 0; block < blocks; ++block) {
             std::vector<std::uint32_t>& places = at_place[block];
-            const auto first = static_cast<std::uint32_t>(halos.first_point(block));
-            const auto end = static_cast<std::uint32_t>(halos.end_point(block));
+            const auto first = static_cast<std::uint32_t>(first_point(block));
+            const auto end = static_cast<std::uint32_t>(end_point(block));
             for (std::uint32_t i = first; i < end; ++i) {
                 place[i] = i - first;
                 places.push_back(i);
             }
             for (std::uint32_t i = first; i < end; ++i) {
                 const FamilyView family = families[i];
-                std::uint16_t* place_of = halos.place_of_.data() + family.first_pack * pack_width;
+                std::uint16_t* place_of = place_of_.data() + family.first_pack * pack_width;
                 for (std::size_t b = 0; b < family.count; ++b) {
                     std::uint32_t& at = place[family.neighbours[b]];
                     if (at == none) {
@@ -46,22 +45,21 @@ Halos Halos::find(const Families& families)
                 place[j] = none;
         }
     }
-    halos.first_place_.assign(blocks + 1, 0);
+    first_place_.assign(blocks + 1, 0);
     for (std::size_t block = 0; block < blocks; ++block)
-        halos.first_place_[block + 1] = halos.first_place_[block] + at_place[block].size();
+        first_place_[block + 1] = first_place_[block] + at_place[block].size();
     for (const std::vector<std::uint32_t>& places : at_place)
         for (const std::uint32_t j : places)
-            ++halos.first_arrival_[families.parent(j) + 1];
-    std::partial_sum(halos.first_arrival_.begin(), halos.first_arrival_.end(), halos.first_arrival_.begin());
-    halos.arrivals_.resize(halos.first_arrival_[n]);
-    std::vector<std::size_t> next(halos.first_arrival_.begin(), halos.first_arrival_.end() - 1);
+            ++first_arrival_[families.parent(j) + 1];
+    std::partial_sum(first_arrival_.begin(), first_arrival_.end(), first_arrival_.begin());
+    arrivals_.resize(first_arrival_[n]);
+    std::vector<std::size_t> next(first_arrival_.begin(), first_arrival_.end() - 1);
     for (std::size_t block = 0; block < blocks; ++block)
         for (std::size_t p = 0; p < at_place[block].size(); ++p) {
             const std::uint32_t j = at_place[block][p];
-            halos.arrivals_[next[families.parent(j)]++] = {static_cast<std::uint32_t>(halos.first_place_[block] + p),
-                                                           families.isometry(j)};
+            arrivals_[next[families.parent(j)]++] = {static_cast<std::uint32_t>(first_place_[block] + p),
+                                                     families.isometry(j)};
         }
-    return halos;
 }
 
 std::size_t Halos::memory() const

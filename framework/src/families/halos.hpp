@@ -20,7 +20,8 @@ static_assert(block_size * (largest_family + 1) <= 65536, "places are numbered w
 /// a point receives does not depend on who computes which block when. The first places of a block are its points.
 class Halos {
 public:
-    static Halos find(const Families& families);
+    /// Finds them anew. Memory is used again.
+    void find(const Families& families);
 
     std::size_t blocks() const { return first_place_.size() - 1; }
     std::size_t first_point(std::size_t block) const { return block * block_size; }

@@ -17,7 +17,6 @@
 namespace periporo {
 namespace {
 
-constexpr std::size_t chunk = 64;
 /// Earlier bonds that a sub-horizon may follow from. Points lie along a space-filling curve, so that near neighbours
 /// are found among the last; looking at all of them would save 3 per cent of the pairs.
 constexpr std::size_t window = 32;
@@ -218,35 +217,32 @@ private:
 
 } // namespace
 
-SubHorizons SubHorizons::find(const Points& points, const IsometryTable& isometries, const Families& families,
-                              double horizon)
+void SubHorizons::find(const Points& points, const IsometryTable& isometries, const Families& families, double horizon)
 {
     const std::size_t n = families.points();
-    SubHorizons result;
-    result.first_bond_.assign(n + 1, 0);
-    result.first_byte_.assign(n, 0);
+    first_bond_.assign(n + 1, 0);
     for (std::size_t i = 0; i < n; ++i)
-        result.first_bond_[i + 1] = result.first_bond_[i] + families[i].count;
-    result.from_.resize(result.first_bond_[n]);
-    result.changes_.resize(result.first_bond_[n]);
-    // Members of a block of points go to a buffer of the block; the buffers are joined in order.
-    const std::size_t blocks = (n + chunk - 1) / chunk;
-    std::vector<std::vector<std::uint8_t>> found(blocks);
+        first_bond_[i + 1] = first_bond_[i] + families[i].count;
+    from_.resize(first_bond_[n]);
+    changes_.resize(first_bond_[n]);
+    first_byte_.resize(n);
+    members_.resize((n + chunk - 1) / chunk);
 #pragma omp parallel
     {
         Membership membership;
         ChangeOrder order;
+        std::vector<std::uint8_t> members; // so that those kept have no more room than they need
 #pragma omp for schedule(dynamic, 1)
-        for (std::size_t block = 0; block < blocks; ++block) {
-            std::vector<std::uint8_t>& members = found[block];
-            for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
+        for (std::size_t c = 0; c < members_.size(); ++c) {
+            members.clear();
+            for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
                 membership.find(points, isometries, families, i, horizon);
-                std::uint16_t* from = result.from_.data() + result.first_bond_[i];
-                const std::span changes(result.changes_.data() + result.first_bond_[i], membership.count());
+                std::uint16_t* from = from_.data() + first_bond_[i];
+                const std::span changes(changes_.data() + first_bond_[i], membership.count());
                 const std::size_t pairs = order.find(membership, from, changes);
                 const bool wide = SubHorizonView{membership.count()}.wide();
                 const std::size_t first = members.size() + members.size() % 2;
-                result.first_byte_[i] = first; // in the buffer of the block
+                first_byte_[i] = static_cast<std::uint32_t>(first);
                 const std::size_t member = wide ? sizeof(std::uint16_t) : sizeof(std::uint8_t);
                 const std::size_t bytes = 2 * pairs * member;
                 members.resize(first + bytes + slack * member);
@@ -260,25 +256,19 @@ SubHorizons SubHorizons::find(const Points& points, const IsometryTable& isometr
                     write(members.data() + first);
                 members.resize(first + bytes);
             }
+            members_[c].assign(members.begin(), members.end());
         }
     }
-    std::vector<std::size_t> start(blocks + 1, 0);
-    for (std::size_t block = 0; block < blocks; ++block)
-        start[block + 1] = start[block] + (found[block].size() + 1) / 2 * 2;
-    result.members_.resize(start[blocks]);
-#pragma omp parallel for schedule(static)
-    for (std::size_t block = 0; block < blocks; ++block) {
-        std::copy(found[block].begin(), found[block].end(), result.members_.data() + start[block]);
-        for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i)
-            result.first_byte_[i] += start[block];
-    }
-    return result;
 }
 
 std::size_t SubHorizons::memory() const
 {
-    return from_.capacity() * sizeof(std::uint16_t) + changes_.capacity() * sizeof(SubHorizonView::Change) +
-           members_.capacity() + (first_bond_.capacity() + first_byte_.capacity()) * sizeof(std::size_t);
+    std::size_t bytes = from_.capacity() * sizeof(std::uint16_t) +
+                        changes_.capacity() * sizeof(SubHorizonView::Change) +
+                        first_bond_.capacity() * sizeof(std::size_t) + first_byte_.capacity() * sizeof(std::uint32_t);
+    for (const AlignedVector<std::uint8_t>& chunk_members : members_)
+        bytes += sizeof(chunk_members) + chunk_members.capacity();
+    return bytes;
 }
 
 } // namespace periporo

@@ -47,15 +47,14 @@ struct SubHorizonView {
 
 class SubHorizons {
 public:
-    /// Sub-horizons for the families of `points` as they are.
-    static SubHorizons find(const Points& points, const IsometryTable& isometries, const Families& families,
-                            double horizon);
+    /// Finds them anew, for the families of `points` as they are. Memory is used again.
+    void find(const Points& points, const IsometryTable& isometries, const Families& families, double horizon);
 
     SubHorizonView operator[](std::size_t point) const
     {
         const std::size_t first = first_bond_[point];
         return {first_bond_[point + 1] - first, from_.data() + first, changes_.data() + first,
-                members_.data() + first_byte_[point]};
+                members_[point / chunk].data() + first_byte_[point]};
     }
 
     /// Bytes held.
@@ -65,8 +64,9 @@ private:
     std::vector<std::uint16_t> from_;
     std::vector<SubHorizonView::Change> changes_;
     std::vector<std::size_t> first_bond_; // points + 1
-    AlignedVector<std::uint8_t> members_;
-    std::vector<std::size_t> first_byte_; // points
+    static constexpr std::size_t chunk = 64;
+    std::vector<AlignedVector<std::uint8_t>> members_; // of each chunk of points
+    std::vector<std::uint32_t> first_byte_;            // of a point, in the members of its chunk
 };
 
 } // namespace periporo

@@ -81,6 +81,31 @@ const H5::PredType& stored_type<std::uint8_t>()
     return H5::PredType::NATIVE_UINT8;
 }
 
+template <class Parts>
+hsize_t length(const Parts& parts)
+{
+    hsize_t size = 0;
+    for (const auto& part : parts)
+        size += part.size();
+    return size;
+}
+
+/// Calls visit(part, its place in the dataset, its place by itself) for all parts that are not empty.
+template <class Parts, class Visit>
+void for_slices(const H5::DataSet& dataset, const Parts& parts, Visit&& visit)
+{
+    H5::DataSpace there = dataset.getSpace();
+    hsize_t first = 0;
+    for (const auto& part : parts) {
+        const hsize_t size = part.size();
+        if (size == 0)
+            continue;
+        there.selectHyperslab(H5S_SELECT_SET, &size, &first);
+        visit(part, there, H5::DataSpace(1, &size));
+        first += size;
+    }
+}
+
 } // namespace
 
 struct ArchiveWriter::Implementation {
@@ -89,15 +114,16 @@ struct ArchiveWriter::Implementation {
     H5::H5File file;
     bool committed = false;
 
-    void write(const std::string& name, const H5::DataType& type, const H5::DataSpace& space, const void* data)
+    /// Makes a dataset and calls fill(dataset).
+    template <class Fill>
+    void write(const std::string& name, const H5::DataType& type, const H5::DataSpace& space, Fill&& fill)
     {
         guarded(fmt::format("cannot write \"{}\" to", name), part, [&] {
             H5::LinkCreatPropList links;
             links.setCreateIntermediateGroup(true);
             H5::DataSet dataset = file.createDataSet(name, type, space, H5::DSetCreatPropList::DEFAULT,
                                                      H5::DSetAccPropList::DEFAULT, links);
-            if (data != nullptr)
-                dataset.write(data, type);
+            fill(dataset);
             dataset.close(); // here and not in its destructor, which could not report a full disk
         });
     }
@@ -106,7 +132,10 @@ struct ArchiveWriter::Implementation {
     void put(const std::string& name, std::span<const Value> values)
     {
         const hsize_t size = values.size();
-        write(name, stored_type<Value>(), H5::DataSpace(1, &size), values.empty() ? nullptr : values.data());
+        write(name, stored_type<Value>(), H5::DataSpace(1, &size), [&](H5::DataSet& dataset) {
+            if (!values.empty())
+                dataset.write(values.data(), stored_type<Value>());
+        });
     }
 };
 
@@ -154,9 +183,21 @@ void ArchiveWriter::put(const std::string& name, const std::string& text)
     type.setStrpad(H5T_STR_NULLPAD);
     type.setCset(H5T_CSET_UTF8);
     if (text.empty())
-        implementation_->write(name, type, H5::DataSpace(H5S_NULL), nullptr);
+        implementation_->write(name, type, H5::DataSpace(H5S_NULL), [](H5::DataSet&) {});
     else
-        implementation_->write(name, type, H5::DataSpace(H5S_SCALAR), text.data());
+        implementation_->write(name, type, H5::DataSpace(H5S_SCALAR),
+                               [&](H5::DataSet& dataset) { dataset.write(text.data(), type); });
+}
+
+void ArchiveWriter::put_parts(const std::string& name, std::span<const std::span<const double>> parts)
+{
+    const hsize_t size = length(parts);
+    const H5::PredType& type = stored_type<double>();
+    implementation_->write(name, type, H5::DataSpace(1, &size), [&](H5::DataSet& dataset) {
+        for_slices(dataset, parts, [&](auto part, const H5::DataSpace& there, const H5::DataSpace& here) {
+            dataset.write(part.data(), type, here, there);
+        });
+    });
 }
 
 void ArchiveWriter::commit()
@@ -203,13 +244,22 @@ struct ArchiveReader::Implementation {
         return dataset;
     }
 
+    /// The dataset of an array of `value_size` bytes a value.
+    H5::DataSet open_array(const std::string& name, H5T_class_t expected, std::size_t value_size,
+                           const char* what) const
+    {
+        H5::DataSet dataset = open(name, expected, what);
+        const std::size_t size = guarded("cannot read", source, [&] { return dataset.getDataType().getSize(); });
+        if (size != value_size)
+            throw std::runtime_error(fmt::format("\"{}\" in {} is not {}", name, source.string(), what));
+        return dataset;
+    }
+
     template <class Value>
     std::vector<Value> get(const std::string& name, H5T_class_t expected, const char* what) const
     {
-        const H5::DataSet dataset = open(name, expected, what);
+        const H5::DataSet dataset = open_array(name, expected, sizeof(Value), what);
         return guarded(fmt::format("cannot read \"{}\" from", name), source, [&] {
-            if (dataset.getDataType().getSize() != sizeof(Value))
-                throw std::runtime_error(fmt::format("\"{}\" in {} is not {}", name, source.string(), what));
             std::vector<Value> values(static_cast<std::size_t>(dataset.getSpace().getSimpleExtentNpoints()));
             if (!values.empty())
                 dataset.read(values.data(), stored_type<Value>());
@@ -246,6 +296,21 @@ std::vector<std::int64_t> ArchiveReader::integers(const std::string& name) const
 std::vector<std::uint8_t> ArchiveReader::bytes(const std::string& name) const
 {
     return implementation_->get<std::uint8_t>(name, H5T_INTEGER, "an array of bytes");
+}
+
+void ArchiveReader::read_parts(const std::string& name, std::span<const std::span<double>> parts) const
+{
+    const H5::DataSet dataset = implementation_->open_array(name, H5T_FLOAT, sizeof(double), "an array of reals");
+    const path& source = implementation_->source;
+    guarded(fmt::format("cannot read \"{}\" from", name), source, [&] {
+        const auto stored = static_cast<hsize_t>(dataset.getSpace().getSimpleExtentNpoints());
+        if (stored != length(parts))
+            throw std::runtime_error(
+                fmt::format("\"{}\" in {} has {} values instead of {}", name, source.string(), stored, length(parts)));
+        for_slices(dataset, parts, [&](auto part, const H5::DataSpace& there, const H5::DataSpace& here) {
+            dataset.read(part.data(), stored_type<double>(), here, there);
+        });
+    });
 }
 
 std::string ArchiveReader::text(const std::string& name) const

@@ -26,6 +26,8 @@ public:
     void put(const std::string& name, std::span<const std::int64_t> values);
     void put(const std::string& name, std::span<const std::uint8_t> values);
     void put(const std::string& name, const std::string& text);
+    /// An array whose parts lie apart.
+    void put_parts(const std::string& name, std::span<const std::span<const double>> parts);
     /// Flushes to the disk and renames over `path`.
     void commit();
 
@@ -47,6 +49,9 @@ public:
     std::vector<std::int64_t> integers(const std::string& name) const;
     std::vector<std::uint8_t> bytes(const std::string& name) const;
     std::string text(const std::string& name) const;
+    /// Fills parts with an array, one after the other.
+    /// @throws std::runtime_error when it has another length than all parts together.
+    void read_parts(const std::string& name, std::span<const std::span<double>> parts) const;
 
 private:
     struct Implementation;

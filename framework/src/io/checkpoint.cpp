@@ -49,6 +49,12 @@ std::vector<Isometry> isometries(const std::vector<double>& values)
     return result;
 }
 
+template <class Value>
+std::vector<std::span<Value>> parts_of(auto& vectors)
+{
+    return {vectors.begin(), vectors.end()};
+}
+
 template <class Vector>
 void copy_checked(const std::vector<typename Vector::value_type>& from, Vector& to, const char* name)
 {
@@ -74,7 +80,7 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     archive.put("jacobian", std::span<const double>(points.jacobian));
     archive.put("refresh_position", flat(model.refresh_position));
     archive.put("point_state", std::span<const double>(model.point_state));
-    archive.put("bond_state", std::span<const double>(model.bonds.state.data(), model.bonds.state.size()));
+    archive.put_parts("bond_state", parts_of<const double>(model.bonds.states));
     archive.put("bond_active", std::span<const std::uint8_t>(model.bonds.active));
     archive.put("free_grain", std::span<const std::uint8_t>(model.free_grain));
     archive.put("inactive_bonds", std::span<const std::int64_t>(std::vector<std::int64_t>(model.inactive_bonds.begin(),
@@ -164,7 +170,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     parts.contact.find_candidates(model, contact_slack);
     parts.contact.set_rooms(model, archive.reals("surface_room"));
     parts.contact.set_deepest_overlap(archive.reals("deepest_overlap"));
-    copy_checked(archive.reals("bond_state"), model.bonds.state, "bond state");
+    archive.read_parts("bond_state", parts_of<double>(model.bonds.states));
     copy_checked(archive.bytes("bond_active"), model.bonds.active, "bond activity");
     copy_checked(archive.reals("point_state"), model.point_state, "point state");
     copy_checked(archive.bytes("free_grain"), model.free_grain, "free grains");

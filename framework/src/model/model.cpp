@@ -29,8 +29,11 @@ void Model::allocate()
 void Model::find_families()
 {
     families = Families::find(points, isometries, horizon);
-    halos = Halos::find(families);
-    sub_horizons = has_sub_horizons ? SubHorizons::find(points, isometries, families, horizon) : SubHorizons();
+    halos.find(families);
+    if (has_sub_horizons)
+        sub_horizons.find(points, isometries, families, horizon);
+    bonds.active.assign(families.packs(), 0);
+    refresh_position = points.position;
 }
 
 Model::Holder Model::holder_of(std::size_t point, std::size_t b) const
@@ -43,15 +46,26 @@ Model::Holder Model::holder_of(std::size_t point, std::size_t b) const
     return {neighbour, opposite - held(neighbour).first};
 }
 
-void Model::allocate_bonds()
+void Model::lay_out_bonds(std::size_t block)
 {
-    const std::size_t n = size();
-    bonds.first.assign(n + 1, 0);
-    for (std::size_t i = 0; i < n; ++i)
-        bonds.first[i + 1] = bonds.first[i] + held_bonds<double>(i, families[i], nullptr).values();
-    bonds.state.resize(bonds.first[n]);
-    bonds.active.resize(families.packs());
-    refresh_position = points.position;
+    std::size_t values = 0;
+    for (std::size_t i = halos.first_point(block); i < halos.end_point(block); ++i) {
+        bonds.first[i] = static_cast<std::uint32_t>(values);
+        values += held_bonds<double>(i, families[i], nullptr).values();
+    }
+    UnsetVector<double>& states = bonds.states[block];
+    states.clear(); // nothing of them is to be moved
+    if (values > states.capacity())
+        states.reserve(values + values / 16); // families grow and shrink a little from one refresh to the next
+    states.resize(values);
+}
+
+std::size_t BondData::memory() const
+{
+    std::size_t bytes = first.capacity() * sizeof(std::uint32_t) + active.capacity();
+    for (const UnsetVector<double>& block : states)
+        bytes += sizeof(block) + block.capacity() * sizeof(double);
+    return bytes;
 }
 
 void Model::update_records()

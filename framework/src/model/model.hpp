@@ -41,23 +41,27 @@ struct alignas(64) NeighbourRecord {
     Vector3 v() const { return {velocity[0], velocity[1], velocity[2]}; }
 };
 
+/// Which bonds carry stress: for each pack of a family one bit a bond.
+struct ActiveBonds : std::vector<std::uint8_t> {
+    /// Does bond b of a family carry stress?
+    bool holds(const FamilyView& family, std::size_t b) const
+    {
+        return ((*this)[family.first_pack + b / pack_width] >> b % pack_width & 1u) != 0;
+    }
+};
+
 /// What bonds carry from step to step: stress and internal variables.
 struct BondData {
-    /// For each point the packs of the bonds that it holds, for each pack `rows` rows of pack_width: effective stress,
-    /// then state variables.
-    UnsetVector<double> state;
-    std::vector<std::size_t> first;   ///< of a point, in `state`
-    std::vector<std::uint8_t> active; ///< for each pack of a family one bit a bond: does it carry stress?
+    /// For each block of points their states, for each point the packs of the bonds that it holds, for each pack `rows`
+    /// rows of pack_width: effective stress, then state variables. A refresh renews them block by block.
+    std::vector<UnsetVector<double>> states;
+    std::vector<std::uint32_t> first; ///< of a point, in the states of its block
+    ActiveBonds active;
 
-    /// Does bond b of a family carry stress?
-    bool is_active(const FamilyView& family, std::size_t b) const
-    {
-        return (active[family.first_pack + b / pack_width] >> b % pack_width & 1u) != 0;
-    }
-    std::size_t memory() const
-    {
-        return state.capacity() * sizeof(double) + first.capacity() * sizeof(std::size_t) + active.capacity();
-    }
+    double* state(std::size_t point) { return states[point / block_size].data() + first[point]; }
+    const double* state(std::size_t point) const { return states[point / block_size].data() + first[point]; }
+    /// Bytes held.
+    std::size_t memory() const;
 };
 
 /// The bonds of a point whose state it holds: a family from bond `first` on, in packs of their own.
@@ -137,18 +141,12 @@ struct Model {
     std::size_t rows(std::size_t point) const { return body_of(point).rows(); }
 
     /// Bonds to images are held by both ends: their states are mirrored.
-    HeldBonds held(std::size_t point)
+    HeldBonds held(std::size_t point) { return held_bonds(point, families[point], bonds.state(point)); }
+    ConstHeldBonds held(std::size_t point) const { return held_bonds(point, families[point], bonds.state(point)); }
+    /// The same of a family that the point had, and its states.
+    ConstHeldBonds held(std::size_t point, const FamilyView& family, const double* state) const
     {
-        return held_bonds(point, families[point], bonds.state.data() + bonds.first[point]);
-    }
-    ConstHeldBonds held(std::size_t point) const
-    {
-        return held_bonds(point, families[point], bonds.state.data() + bonds.first[point]);
-    }
-    /// The same of families and bonds that are or were of this model.
-    ConstHeldBonds held(std::size_t point, const Families& of, const BondData& data) const
-    {
-        return held_bonds(point, of[point], data.state.data() + data.first[point]);
+        return held_bonds(point, family, state);
     }
     /// First of the rows of bond b of a point, held by whichever end; rows are pack_width apart.
     double* bond_state(std::size_t point, std::size_t b)
@@ -161,12 +159,13 @@ struct Model {
         const Holder holder = holder_of(point, b);
         return held(holder.point).bond(holder.held);
     }
-    /// Sizes of the bond data for the families as they are; values are not set.
-    void allocate_bonds();
+    /// Lays out the states of the bonds of a block of points for the families as they are; values are not set.
+    void lay_out_bonds(std::size_t block);
 
     /// Sets the sizes of everything that has one value a point.
     void allocate();
-    /// Families, and what follows from them, at the current positions. Bond data are not touched.
+    /// Families, and what follows from them, at the current positions. The states of bonds are not touched; none is
+    /// active.
     void find_families();
     /// Copies positions, velocities and volumes of points and images to the records.
     void update_records();

@@ -217,7 +217,7 @@ void Evaluator::begin_bonds(std::size_t point, const HeldBonds& held, BondStress
         const std::uint32_t* neighbours = held.neighbours + p * pack_width;
         std::uint8_t lanes = 0;
         for (std::size_t lane = 0; lane < held.bonds_in(p); ++lane)
-            if (model_.bonds.is_active(family, held.first + p * pack_width + lane))
+            if (model_.bonds.active.holds(family, held.first + p * pack_width + lane))
                 lanes = static_cast<std::uint8_t>(lanes | 1u << lane);
         const PackMask active = lane_mask(lanes);
         const BondGeometry g(model_, point, neighbours, active, influence_);
@@ -431,8 +431,9 @@ void BondProjectionForceState::shares(const Model& model, std::size_t point, std
     double total = 0.0;
     for (std::size_t b = 0; b < family.packs * pack_width; ++b) {
         const NeighbourRecord& other = model.records[family.neighbours[b]];
-        total += shares[b] =
-            model.bonds.is_active(family, b) ? influence()((other.x() - self.x()).squaredNorm()) * other.volume : 0.0;
+        total += shares[b] = model.bonds.active.holds(family, b)
+                                 ? influence()((other.x() - self.x()).squaredNorm()) * other.volume
+                                 : 0.0;
     }
     if (total > 0.0)
         for (double& share : shares)

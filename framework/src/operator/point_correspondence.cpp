@@ -102,8 +102,8 @@ void PointCorrespondenceForceState::evaluate(Model& model, const Evaluation& eva
             for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
                 const FamilyView family = model.families[i];
                 const PointKinematics point = point_kinematics(model, i, family, influence());
-                BondStress stress(model, i, family.neighbours, family.packs,
-                                  model.bonds.state.data() + model.bonds.first[i], evaluation, workspace);
+                BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state(i), evaluation,
+                                  workspace);
                 for (std::size_t p = 0; p < family.packs; ++p) {
                     // all bonds of a sound point are active
                     const std::uint8_t lanes = point.sound ? family.lanes(p) : std::uint8_t{0};

@@ -49,7 +49,7 @@ double begun_with(const Model& model, std::size_t point, std::uint32_t neighbour
     return 0.5 * (own + model.point_state[model.families.parent(neighbour) * model.state_stride + row]);
 }
 
-/// Calls set(point, neighbour, rows of the bond) for every bond that a point holds and every lane behind the last.
+/// Calls set(neighbour, rows of the bond) for every bond that a point holds and every lane behind the last.
 template <class Set>
 void for_held_bonds(Model& model, std::size_t point, Set&& set)
 {
@@ -77,14 +77,19 @@ void find_first_families(Model& model, const ForceState& force_state)
     model.has_sub_horizons = force_state.uses_sub_horizons();
     model.has_shared_bonds = force_state.shares_bonds();
     model.find_families();
-    model.allocate_bonds();
-    std::fill(model.bonds.active.begin(), model.bonds.active.end(), std::uint8_t{0});
-    for (std::size_t i = 0; i < model.size(); ++i) {
-        const double* state = model.point_state.data() + i * model.state_stride;
-        for_held_bonds(model, i, [&](std::uint32_t, double* bond) {
-            for (std::size_t r = 0; r < model.rows(i); ++r)
-                bond[r * pack_width] = state[r];
-        });
+    model.bonds.states.resize(model.halos.blocks());
+    model.bonds.first.resize(model.size());
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
+        model.lay_out_bonds(block);
+        for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
+            const std::size_t rows = model.rows(i);
+            const double* state = model.point_state.data() + i * model.state_stride;
+            for_held_bonds(model, i, [&](std::uint32_t, double* bond) {
+                for (std::size_t r = 0; r < rows; ++r)
+                    bond[r * pack_width] = state[r];
+            });
+        }
     }
     model.update_records();
 }
@@ -182,44 +187,77 @@ void mean_point_states(const Model& model, const ForceState& force_state, std::v
     }
 }
 
+namespace {
+
+/// The states of the bonds of one block as they were; the buffer only ever grows.
+class BlockBefore {
+public:
+    void keep(const Model& model, std::size_t block)
+    {
+        const UnsetVector<double>& states = model.bonds.states[block];
+        states_.resize(std::max(states_.size(), states.size()));
+        std::copy(states.begin(), states.end(), states_.begin());
+        const std::size_t first = model.halos.first_point(block);
+        std::copy_n(model.bonds.first.begin() + first, model.halos.end_point(block) - first, first_.begin());
+    }
+    const double* state(std::size_t point) const { return states_.data() + first_[point % block_size]; }
+
+private:
+    UnsetVector<double> states_;
+    std::array<std::uint32_t, block_size> first_;
+};
+
+/// Sets the states of the bonds that a point holds from those that it held: `state`, of the family and the active bonds
+/// before. `seen` has room for the state of a point.
+void hand_over(Model& model, std::size_t point, const Families& families_before, const ActiveBonds& active_before,
+               const double* state, std::vector<double>& seen)
+{
+    const FamilyView before = families_before[point];
+    const ConstHeldBonds held_before = model.held(point, before, state);
+    const std::size_t rows = held_before.rows;
+    const double* own = model.point_state.data() + point * model.state_stride;
+    std::size_t at = held_before.first; // both families are ordered by key
+    for_held_bonds(model, point, [&](std::uint32_t j, double* bond) {
+        const std::uint64_t key = model.families.key(j);
+        while (at < before.count && families_before.key(before.neighbours[at]) < key)
+            ++at;
+        if (at < before.count && families_before.key(before.neighbours[at]) == key && active_before.holds(before, at)) {
+            const double* old = held_before.bond(at - held_before.first);
+            for (std::size_t r = 0; r < rows; ++r)
+                bond[r * pack_width] = old[r * pack_width];
+            return;
+        }
+        const double* other = model.point_state.data() + model.families.parent(j) * model.state_stride;
+        if (const std::uint32_t isometry = model.families.isometry(j); isometry != 0) {
+            point_state_seen_as(model.isometries[isometry], other, rows, seen.data());
+            other = seen.data();
+        }
+        for (std::size_t r = 0; r < rows; ++r)
+            bond[r * pack_width] = 0.5 * (own[r] + other[r]);
+    });
+}
+
+} // namespace
+
 void refresh_families(Model& model, const ForceState& force_state)
 {
     model.update_records();
     std::vector<double> states = model.point_state;
     mean_point_states(model, force_state, states);
     model.point_state.swap(states);
-    const Families old_families = std::exchange(model.families, {});
+    const Families families_before = std::exchange(model.families, {});
+    const ActiveBonds active_before = std::exchange(model.bonds.active, {});
     model.find_families();
-    const BondData old_bonds = std::exchange(model.bonds, BondData{});
-    model.allocate_bonds();
 #pragma omp parallel
     {
+        BlockBefore before;
         std::vector<double> seen(model.state_stride);
-#pragma omp for schedule(dynamic, 64)
-        for (std::size_t i = 0; i < model.size(); ++i) {
-            const FamilyView before = old_families[i];
-            const ConstHeldBonds held_before = model.held(i, old_families, old_bonds);
-            const std::size_t rows = held_before.rows;
-            const double* own = model.point_state.data() + i * model.state_stride;
-            std::size_t at = held_before.first; // both families are ordered by key
-            for_held_bonds(model, i, [&](std::uint32_t j, double* bond) {
-                while (at < before.count && old_families.key(before.neighbours[at]) < model.families.key(j))
-                    ++at;
-                if (at < before.count && old_families.key(before.neighbours[at]) == model.families.key(j) &&
-                    old_bonds.is_active(before, at)) {
-                    const double* old = held_before.bond(at - held_before.first);
-                    for (std::size_t r = 0; r < rows; ++r)
-                        bond[r * pack_width] = old[r * pack_width];
-                    return;
-                }
-                const double* other = model.point_state.data() + model.families.parent(j) * model.state_stride;
-                if (const std::uint32_t isometry = model.families.isometry(j); isometry != 0) {
-                    point_state_seen_as(model.isometries[isometry], other, rows, seen.data());
-                    other = seen.data();
-                }
-                for (std::size_t r = 0; r < rows; ++r)
-                    bond[r * pack_width] = 0.5 * (own[r] + other[r]);
-            });
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
+            before.keep(model, block);
+            model.lay_out_bonds(block);
+            for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i)
+                hand_over(model, i, families_before, active_before, before.state(i), seen);
         }
     }
     hand_out_point_variables(model);

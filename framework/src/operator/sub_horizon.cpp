@@ -243,8 +243,8 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
                 w.reserve(family.packs);
                 const FamilySums family_sums = gather(model, i, family, influence(), w);
                 sum_sub_horizons(model.sub_horizons[i], w.features, w.sums);
-                BondStress stress(model, i, family.neighbours, family.packs,
-                                  model.bonds.state.data() + model.bonds.first[i], evaluation, w.stress);
+                BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state(i), evaluation,
+                                  w.stress);
                 const double total = kinematics(model, i, family, family_sums, conjugate, thickness,
                                                 evaluation.gradient_lag(), least_squared, w, stress);
                 const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;

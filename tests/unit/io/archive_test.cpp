@@ -65,6 +65,31 @@ TEST_CASE("integers, bytes and texts come back as they were")
     CHECK(reader.text("text") == text);
 }
 
+TEST_CASE("an array whose parts lie apart is one array, and fills other parts of the same length together")
+{
+    const test::TemporaryFolder folder;
+    const std::vector<double> first{1.0, 2.0}, second, third{3.0, -0.0, 5.0};
+    {
+        ArchiveWriter writer(folder / "state");
+        writer.put_parts("values", std::vector<std::span<const double>>{first, second, third});
+        writer.put_parts("nothing", {});
+        writer.commit();
+    }
+    const ArchiveReader reader(folder / "state");
+    CHECK(reader.reals("values") == std::vector{1.0, 2.0, 3.0, -0.0, 5.0});
+    CHECK(reader.reals("nothing").empty());
+    std::vector<double> head(4), tail(1);
+    reader.read_parts("values", std::vector<std::span<double>>{head, tail});
+    CHECK(head == std::vector{1.0, 2.0, 3.0, -0.0});
+    CHECK(tail == std::vector{5.0});
+
+    std::vector<double> longer(2);
+    const std::string message = message_of_error([&] {
+        reader.read_parts("values", std::vector<std::span<double>>{head, longer});
+    });
+    check_mentions(message, {"values", "5 values instead of 6", "state"});
+}
+
 TEST_CASE("empty arrays and an empty text are there and empty")
 {
     const test::TemporaryFolder folder;
