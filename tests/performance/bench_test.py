@@ -78,6 +78,7 @@ class Benchmark(unittest.TestCase):
             self.assertGreaterEqual(row["refreshes"], 1)
             self.assertGreater(row["point_steps_per_second"], 0.0)
             self.assertGreater(row["bytes_per_point"], 1000.0)
+            self.assertGreater(row["peak_bytes_per_point"], row["bytes_per_point"])
             self.assertTrue(0.0 < row["ceiling_fraction"] < 1.0)
             self.assertGreater(row["phase_seconds"]["material"], 0.0)
         self.assertIn("point-steps/s", printed.getvalue())

@@ -63,7 +63,8 @@ class Measurement:
     steps: int
     refreshes: int
     bonds_per_point: float
-    bytes_per_point: float
+    bytes_per_point: float  # that the model held at its end
+    peak_bytes_per_point: float  # the most that the whole process had
     flowing: float  # share of the points that flowed plastically
     seconds: float
     phase_seconds: dict[str, float]
@@ -87,6 +88,16 @@ class Measurement:
         return record
 
 
+def _run(command: list) -> int:
+    """Returns the most bytes that the process had in memory. @throws subprocess.CalledProcessError when it fails."""
+    process = subprocess.Popen(command, env={**os.environ, "OMP_WAIT_POLICY": "active"}, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        raise subprocess.CalledProcessError(process.returncode, command)
+    return 1024 * usage.ru_maxrss
+
+
 def run(load: Load, program: Path, cases: Path, out: Path) -> Measurement:
     """Runs the program under a load. @throws subprocess.CalledProcessError when it fails, its messages on stderr."""
     length = _SPACING * load.edge
@@ -100,16 +111,15 @@ def run(load: Load, program: Path, cases: Path, out: Path) -> Measurement:
         "stage.0.duration": f"{(load.steps - 0.5) * _STEP} s",
     }
     words = [word for key, value in settings.items() if value for word in ("--set", f"{key}={value}")]
-    subprocess.run(
-        [program, "run", cases / _CASES[load.material], "--out", out, "--overwrite", "--quiet", "--threads", str(load.threads), *words],
-        env={**os.environ, "OMP_WAIT_POLICY": "active"}, stdout=subprocess.DEVNULL, check=True,
-    )
+    peak = _run([program, "run", cases / _CASES[load.material], "--out", out, "--overwrite", "--quiet",
+                 "--threads", str(load.threads), *words])
     summary = read_summary(out)
     with h5py.File(out / "results.h5") as file:
         last = file["snapshots"][sorted(file["snapshots"])[-1]]
         strain = np.asarray(last.get("equivalent_plastic_shear_strain", [0.0]))
     return Measurement(
         load.force_state, load.material, load.threads, summary["points"], summary["steps"], summary["refreshes"],
-        summary["bonds"] / summary["points"], summary["bytes_per_point"], float(np.mean(strain > 0.0)),
+        summary["bonds"] / summary["points"], summary["bytes_per_point"], peak / summary["points"],
+        float(np.mean(strain > 0.0)),
         sum(summary["phase_seconds"].values()), summary["phase_seconds"],
     )

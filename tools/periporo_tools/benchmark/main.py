@@ -55,8 +55,8 @@ def _loads(options: argparse.Namespace) -> list[Load]:
                 for state in ("energy_conjugate", "bond_projection") for t in threads]
     chosen = [Load(state, material, t, options.edge, options.steps)
               for state in _FORCE_STATES for material in (_SOIL, _ELASTIC) for t in threads]
-    # fewer steps than a refresh is apart, for its memory is twice that of the model
-    for edge, steps in ((22, options.steps), (46, options.steps), (100, 15)):
+    # a million points: as many steps as show one refresh
+    for edge, steps in ((22, options.steps), (46, options.steps), (100, 30)):
         chosen += [Load(state, _SOIL, most, edge, steps) for state in ("energy_conjugate", "bond_projection")]
     return chosen
 

@@ -61,7 +61,7 @@ def _formatted(header: list[str], lines: list[list[str]]) -> str:
 def rates(report: Report) -> str:
     """Rates in millions of point-steps and bond-steps a second, memory, and what is reached of the ceilings."""
     header = ["force state", "material", "threads", "points", "M point-steps/s", "a thread", "M bond-steps/s",
-              "bonds", "kB a point", "flowing", "of arithmetic", "of bandwidth"]
+              "bonds", "kB a point", "at most", "flowing", "of arithmetic", "of bandwidth"]
     lines = []
     for load, found in report.rows:
         arithmetic, bandwidth = report.fractions(load, found)
@@ -69,13 +69,14 @@ def rates(report: Report) -> str:
         lines.append([
             load.force_state, load.material, str(load.threads), f"{found.points:,}", _million(rate),
             _million(rate / load.threads), f"{1e-6 * found.bond_steps_per_second:.1f}", f"{found.bonds_per_point:.0f}",
-            f"{1e-3 * found.bytes_per_point:.1f}", f"{100 * found.flowing:.0f} %" if found.flowing else "-",
+            f"{1e-3 * found.bytes_per_point:.1f}", f"{1e-3 * found.peak_bytes_per_point:.1f}",
+            f"{100 * found.flowing:.0f} %" if found.flowing else "-",
             f"{100 * arithmetic:.0f} %", f"{100 * bandwidth:.0f} %",
         ])
     for peer in report.peers:
         rate = peer.point_steps_per_second
         lines.append([f"LAMMPS {peer.style}", "linear elastic", str(peer.threads), f"{peer.points:,}", _million(rate),
-                      _million(rate / peer.threads), *["-"] * 6])
+                      _million(rate / peer.threads), *["-"] * 7])
     return _formatted(header, lines)
 
 
