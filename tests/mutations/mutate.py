@@ -83,8 +83,8 @@ MUTATIONS = {
     ),
     "bond_state_lost_at_refresh": Mutation(
         "operator/refresh.cpp",
-        "while (at < before.count && old_families",
-        "at = before.count;\nwhile (at < before.count && old_families",
+        "while (at < before.count && families_before",
+        "at = before.count;\nwhile (at < before.count && families_before",
         _REFRESH,
     ),
     "point_variables_not_evened_out": Mutation(

@@ -23,7 +23,10 @@ _PHASES = {
 
 def _report(flops_per_second: float, seconds: float) -> table.Report:
     load = Load("energy_conjugate", "viscoplastic_critical_state", 2, 10, 100)
-    found = Measurement("energy_conjugate", "viscoplastic_critical_state", 2, 1000, 100, 4, 80.0, 1e4, 1.0, seconds, _PHASES)
+    found = Measurement(
+        load.force_state, load.material, load.threads, points=1000, steps=100, refreshes=4, bonds_per_point=80.0,
+        bytes_per_point=1e4, peak_bytes_per_point=1.2e4, flowing=1.0, seconds=seconds, phase_seconds=_PHASES,
+    )
     ceilings = {2: Ceilings(2, flops_per_second, 1e10)}
     return table.Report("a machine", "2026-01-01", ceilings, [(load, found)])
 
