@@ -129,13 +129,21 @@ struct ArchiveWriter::Implementation {
     }
 
     template <class Value>
+    void put_parts(const std::string& name, std::span<const std::span<const Value>> parts)
+    {
+        const hsize_t size = length(parts);
+        const H5::PredType& type = stored_type<Value>();
+        write(name, type, H5::DataSpace(1, &size), [&](H5::DataSet& dataset) {
+            for_slices(dataset, parts, [&](auto part, const H5::DataSpace& there, const H5::DataSpace& here) {
+                dataset.write(part.data(), type, here, there);
+            });
+        });
+    }
+
+    template <class Value>
     void put(const std::string& name, std::span<const Value> values)
     {
-        const hsize_t size = values.size();
-        write(name, stored_type<Value>(), H5::DataSpace(1, &size), [&](H5::DataSet& dataset) {
-            if (!values.empty())
-                dataset.write(values.data(), stored_type<Value>());
-        });
+        put_parts<Value>(name, {&values, 1});
     }
 };
 
@@ -191,13 +199,7 @@ void ArchiveWriter::put(const std::string& name, const std::string& text)
 
 void ArchiveWriter::put_parts(const std::string& name, std::span<const std::span<const double>> parts)
 {
-    const hsize_t size = length(parts);
-    const H5::PredType& type = stored_type<double>();
-    implementation_->write(name, type, H5::DataSpace(1, &size), [&](H5::DataSet& dataset) {
-        for_slices(dataset, parts, [&](auto part, const H5::DataSpace& there, const H5::DataSpace& here) {
-            dataset.write(part.data(), type, here, there);
-        });
-    });
+    implementation_->put_parts(name, parts);
 }
 
 void ArchiveWriter::commit()

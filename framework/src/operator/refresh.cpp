@@ -7,6 +7,7 @@
 #include "time/ordered_sum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>

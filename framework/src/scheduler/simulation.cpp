@@ -44,7 +44,7 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
                            Influence::by_name(description.operators.influence, description.discretization.horizon()))),
       contact_(std::vector<ContactAssignment>{}), dynamics_(model_, *force_state_, contact_, settings_of(description)),
       outputs_(description, registry), progress_(options.quiet), started_(std::chrono::steady_clock::now()),
-      next_checkpoint_(started_)
+      last_checkpoint_(started_)
 {
     BuiltModel built = build_model(description, registry, [this](const std::string& body, double fraction) {
         progress_.update([&] { return fmt::format("filling body '{}': {:.0f} %", body, 100.0 * fraction); });
@@ -61,8 +61,7 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
 RunOutcome Simulation::run()
 {
     restore();
-    const std::chrono::duration<double> every(description_.checkpoint_every);
-    next_checkpoint_ = std::chrono::steady_clock::now() + every;
+    last_checkpoint_ = std::chrono::steady_clock::now();
     outputs_.begin(model_, describe_run());
     try {
         for (; at_.stage < description_.stages.size(); ++at_.stage) {
@@ -329,7 +328,8 @@ void Simulation::check_points()
 
 bool Simulation::stop_here()
 {
-    if (std::chrono::steady_clock::now() > next_checkpoint_)
+    const std::chrono::duration<double> every(std::max(description_.checkpoint_every, 20.0 * checkpoint_took_.count()));
+    if (std::chrono::steady_clock::now() - last_checkpoint_ > every)
         dynamics_.times().time(Phase::output, [&] { checkpoint(); });
     return interruption_.requested();
 }
@@ -344,9 +344,8 @@ void Simulation::checkpoint()
     WaterCourse water = water_.course();
     write_checkpoint(options_.directory / "checkpoint.h5",
                      {model_, *force_state_, contact_, dynamics_, frequency_, position, water}, description_.resolved);
-    const auto ended = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> every(description_.checkpoint_every);
-    next_checkpoint_ = ended + std::max<std::chrono::duration<double>>(every, 20 * (ended - began));
+    last_checkpoint_ = std::chrono::steady_clock::now();
+    checkpoint_took_ = last_checkpoint_ - began;
 }
 
 double Simulation::wall_seconds() const

@@ -71,7 +71,8 @@ private:
     InterruptionGuard interruption_;
     nlohmann::json reports_ = nlohmann::json::array();
     std::chrono::steady_clock::time_point started_;
-    std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> next_checkpoint_;
+    std::chrono::steady_clock::time_point last_checkpoint_;
+    std::chrono::duration<double> checkpoint_took_{0.0};
     std::uint64_t steps_here_ = 0; ///< in this process, for the speed
     bool resuming_ = false;
 };

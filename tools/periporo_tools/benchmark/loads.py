@@ -120,6 +120,5 @@ def run(load: Load, program: Path, cases: Path, out: Path) -> Measurement:
     return Measurement(
         load.force_state, load.material, load.threads, summary["points"], summary["steps"], summary["refreshes"],
         summary["bonds"] / summary["points"], summary["bytes_per_point"], peak / summary["points"],
-        float(np.mean(strain > 0.0)),
-        sum(summary["phase_seconds"].values()), summary["phase_seconds"],
+        float(np.mean(strain > 0.0)), sum(summary["phase_seconds"].values()), summary["phase_seconds"],
     )
