@@ -15,7 +15,7 @@ constexpr double most_cells_per_position = 8.0;
 
 } // namespace
 
-CellList::CellList(std::span<const Vector3> positions, double reach) : lower_(Vector3::Zero()), size_(reach)
+CellList::CellList(std::span<const Vector3> positions, double reach) : lower_(Vector3::Zero())
 {
     Vector3 upper = Vector3::Zero();
     if (!positions.empty()) {
@@ -26,6 +26,7 @@ CellList::CellList(std::span<const Vector3> positions, double reach) : lower_(Ve
         }
     }
     size_ = reach * (1.0 + 1e-9);
+    near_squared_ = size_ * size_;
     const Vector3 extent = upper - lower_;
     const auto cells = [&] {
         const Vector3 n = (extent / size_).array().floor() + 1.0;
@@ -53,6 +54,11 @@ CellList::CellList(std::span<const Vector3> positions, double reach) : lower_(Ve
     std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
     for (std::size_t p = 0; p < positions.size(); ++p)
         order_[next[cell[p]]++] = static_cast<std::uint32_t>(p);
+    for (std::size_t c = 0; c < 3; ++c) {
+        coordinates_[c].resize(positions.size() + pack_width - 1);
+        for (std::size_t n = 0; n < order_.size(); ++n)
+            coordinates_[c][n] = positions[order_[n]][static_cast<Eigen::Index>(c)];
+    }
 }
 
 CellList::Cell CellList::cell_of(const Vector3& position) const

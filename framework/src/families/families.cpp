@@ -70,8 +70,7 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
         for (std::size_t block = 0; block < blocks; ++block)
             for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
                 collect(static_cast<std::uint32_t>(i), family);
-                std::sort(family.begin(), family.end(),
-                          [this](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+                std::sort(family.begin(), family.end()); // by key, since points and images are
                 count_[i] = static_cast<std::uint32_t>(family.size());
                 found[block].insert(found[block].end(), family.begin(), family.end());
             }

@@ -21,6 +21,7 @@ namespace {
 /// are found among the last; looking at all of them would save 3 per cent of the pairs.
 constexpr std::size_t window = 32;
 constexpr std::size_t word_bits = 64;
+constexpr std::uint64_t lower_bits = 0x5555555555555555; ///< of twins
 constexpr std::uint64_t no_way = std::uint64_t{1} << 32; ///< more pairs than any sum takes
 
 /// n/step for every bit n of a word.
@@ -57,7 +58,7 @@ public:
             for (int c = 0; c < 3; ++c)
                 zeta_[c][b] = x[c];
         }
-        bits_.assign(words_ * count_, 0);
+        bits_.assign(words_ * count_ + window, 0); // step() looks at a whole window
         const Pack reach_squared = horizon * horizon;
         for (std::size_t p = 0; p < family.packs; ++p) {
             const std::size_t at = p * pack_width;
@@ -100,7 +101,7 @@ public:
             const std::uint64_t own = word(w, b);
             const std::uint64_t* earlier = bits_.data() + w * count_ + first;
 #pragma GCC ivdep
-            for (std::size_t a = 0; a < b - first; ++a) {
+            for (std::size_t a = 0; a < window; ++a) { // what is not earlier has no way
                 enter[a] += visits(own & ~earlier[a]);
                 leave[a] += visits(earlier[a] & ~own);
             }
@@ -148,12 +149,13 @@ private:
     /// The lower bits of twins.
     static std::uint64_t twins(std::uint64_t bits)
     {
-        return bits & bits >> 1 & 0x5555555555555555u;
+        return bits & bits >> 1 & lower_bits;
     }
-    /// How many visits the members of a word take.
+    /// How many visits the members of a word take: as many as there are pairs of neighbouring bits that are not both
+    /// zero. One count alone, and cast at once, is what compilers turn into vector instructions.
     static std::uint64_t visits(std::uint64_t bits)
     {
-        return static_cast<std::uint64_t>(std::popcount(bits) - std::popcount(twins(bits)));
+        return static_cast<std::uint64_t>(std::popcount((bits | bits >> 1) & lower_bits));
     }
 
     template <class Member>

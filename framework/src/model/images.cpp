@@ -3,6 +3,7 @@
 //
 #include "model/images.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <fmt/format.h>
 #include <limits>
@@ -135,6 +136,7 @@ std::vector<Image> find_images(std::span<const Vector3> positions, IsometryTable
     }
     const double margin = reach * (1.0 + 1e-9);
     std::vector<std::uint32_t> active = isometries.active(lower, upper, margin);
+    std::sort(active.begin(), active.end());
     for (const std::uint32_t number : active) {
         const Isometry& isometry = isometries[number];
         for (std::size_t p = 0; p < positions.size(); ++p) {

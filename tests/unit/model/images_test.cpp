@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 using namespace periporo;
 
 TEST_CASE("two perpendicular symmetry planes make three images of a point at their corner")
@@ -37,10 +39,14 @@ TEST_CASE("a number of an isometry keeps its meaning when planes come and go")
     const std::vector<Image> before = find_images(points, table, 0.05);
     REQUIRE(before.size() == 1);
     table.set_generators({Isometry::reflection(0, 1.0), Isometry::reflection(0, 0.0)});
-    bool found = false;
-    for (const Image& image : find_images(points, table, 0.05))
-        found = found || (image.parent == before[0].parent && image.isometry == before[0].isometry);
-    CHECK(found);
+    const std::vector<Image> after = find_images(points, table, 0.05);
+    const auto is_the_one_before = [&](const Image& image) {
+        return image.parent == before[0].parent && image.isometry == before[0].isometry;
+    };
+    CHECK(std::ranges::count_if(after, is_the_one_before) == 1);
+    // the plane that is new comes first among the generators, but its number is the larger one
+    REQUIRE(after.size() == 2);
+    CHECK(after[0].isometry < after[1].isometry);
 }
 
 TEST_CASE("an isometry followed by its inverse is the identity")
