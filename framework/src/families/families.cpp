@@ -13,8 +13,6 @@
 namespace periporo {
 namespace {
 
-constexpr int chunk = 64;
-
 /// |x_i - g x_p|^2, evaluated so that (i, g p) and (p, g^-1 i) give the same bits: membership of a family is mutual.
 double mutual_distance_squared(const std::vector<Vector3>& x, std::uint32_t i, std::uint32_t p, std::uint32_t isometry,
                                const Vector3& image, const IsometryTable& isometries)
@@ -61,14 +59,14 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
         });
     };
     // Families of a block of points go to a buffer of the block; the buffers are joined in order.
-    const std::size_t blocks = (n + chunk - 1) / chunk;
+    const std::size_t blocks = (n + block_size - 1) / block_size;
     std::vector<std::vector<std::uint32_t>> found(blocks);
 #pragma omp parallel
     {
         std::vector<std::uint32_t> family;
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t block = 0; block < blocks; ++block)
-            for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
+            for (std::size_t i = block * block_size; i < std::min(n, (block + 1) * block_size); ++i) {
                 collect(static_cast<std::uint32_t>(i), family);
                 std::sort(family.begin(), family.end()); // by key, since points and images are
                 count_[i] = static_cast<std::uint32_t>(family.size());
@@ -90,7 +88,7 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
 #pragma omp parallel for schedule(static)
     for (std::size_t block = 0; block < blocks; ++block) {
         const std::uint32_t* next = found[block].data();
-        for (std::size_t i = block * chunk; i < std::min(n, (block + 1) * chunk); ++i) {
+        for (std::size_t i = block * block_size; i < std::min(n, (block + 1) * block_size); ++i) {
             std::uint32_t* family = neighbours_.data() + first_pack_[i] * pack_width;
             std::uint32_t* end = neighbours_.data() + first_pack_[i + 1] * pack_width;
             std::fill(std::copy(next, next + count_[i], family), end, static_cast<std::uint32_t>(i));

@@ -39,6 +39,9 @@ struct FamilyView {
     std::uint8_t lanes(std::size_t pack) const { return first_lanes(bonds_in(pack)); }
 };
 
+/// Points of a block lie side by side on a space-filling curve; one thread works on a block at a time.
+inline constexpr std::size_t block_size = 64;
+
 /// Most bonds of a point; a lattice at delta = 3.015 dx has 122.
 inline constexpr std::uint32_t largest_family = 1000;
 

@@ -12,8 +12,6 @@
 
 namespace periporo {
 
-/// Points of a block lie side by side on a space-filling curve; one thread works on a block at a time.
-inline constexpr std::size_t block_size = 64;
 static_assert(block_size * (largest_family + 1) <= 65536, "places are numbered with two bytes");
 
 /// What the bonds of a block add to points, its own and others, gathers at places that only this block writes to: what

@@ -228,16 +228,16 @@ void SubHorizons::find(const Points& points, const IsometryTable& isometries, co
     from_.resize(first_bond_[n]);
     changes_.resize(first_bond_[n]);
     first_byte_.resize(n);
-    members_.resize((n + chunk - 1) / chunk);
+    members_.resize((n + block_size - 1) / block_size);
 #pragma omp parallel
     {
         Membership membership;
         ChangeOrder order;
         std::vector<std::uint8_t> members; // so that those kept have no more room than they need
 #pragma omp for schedule(dynamic, 1)
-        for (std::size_t c = 0; c < members_.size(); ++c) {
+        for (std::size_t block = 0; block < members_.size(); ++block) {
             members.clear();
-            for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
+            for (std::size_t i = block * block_size; i < std::min(n, (block + 1) * block_size); ++i) {
                 membership.find(points, isometries, families, i, horizon);
                 std::uint16_t* from = from_.data() + first_bond_[i];
                 const std::span changes(changes_.data() + first_bond_[i], membership.count());
@@ -258,7 +258,7 @@ void SubHorizons::find(const Points& points, const IsometryTable& isometries, co
                     write(members.data() + first);
                 members.resize(first + bytes);
             }
-            members_[c].assign(members.begin(), members.end());
+            members_[block].assign(members.begin(), members.end());
         }
     }
 }
@@ -268,8 +268,8 @@ std::size_t SubHorizons::memory() const
     std::size_t bytes = from_.capacity() * sizeof(std::uint16_t) +
                         changes_.capacity() * sizeof(SubHorizonView::Change) +
                         first_bond_.capacity() * sizeof(std::size_t) + first_byte_.capacity() * sizeof(std::uint32_t);
-    for (const AlignedVector<std::uint8_t>& chunk_members : members_)
-        bytes += sizeof(chunk_members) + chunk_members.capacity();
+    for (const AlignedVector<std::uint8_t>& block_members : members_)
+        bytes += sizeof(block_members) + block_members.capacity();
     return bytes;
 }
 

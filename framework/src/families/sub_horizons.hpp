@@ -54,7 +54,7 @@ public:
     {
         const std::size_t first = first_bond_[point];
         return {first_bond_[point + 1] - first, from_.data() + first, changes_.data() + first,
-                members_[point / chunk].data() + first_byte_[point]};
+                members_[point / block_size].data() + first_byte_[point]};
     }
 
     /// Bytes held.
@@ -63,10 +63,9 @@ public:
 private:
     std::vector<std::uint16_t> from_;
     std::vector<SubHorizonView::Change> changes_;
-    std::vector<std::size_t> first_bond_; // points + 1
-    static constexpr std::size_t chunk = 64;
-    std::vector<AlignedVector<std::uint8_t>> members_; // of each chunk of points
-    std::vector<std::uint32_t> first_byte_;            // of a point, in the members of its chunk
+    std::vector<std::size_t> first_bond_;              // points + 1
+    std::vector<AlignedVector<std::uint8_t>> members_; // of each block of points
+    std::vector<std::uint32_t> first_byte_;            // of a point, in the members of its block
 };
 
 } // namespace periporo

@@ -8,7 +8,6 @@
 #include "operator/transpose.hpp"
 #include "periporo/material.hpp"
 
-#include <chrono>
 #include <limits>
 #include <vector>
 
@@ -84,30 +83,6 @@ private:
     const Halos& halos_;
     std::size_t first_point_;
     double* places_;
-};
-
-/// Takes the time of the parts of an evaluation for one point of sixteen: a clock for every point would be felt.
-class SampledTimes {
-public:
-    SampledTimes(OperatorSamples& samples, std::size_t point) : samples_(samples), sampled_(point % 16 == 8)
-    {
-        if (sampled_)
-            last_ = Clock::now();
-    }
-    void end_of(double OperatorSamples::*part)
-    {
-        if (!sampled_)
-            return;
-        const Clock::time_point now = Clock::now();
-        samples_.*part += std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-    }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    OperatorSamples& samples_;
-    bool sampled_;
-    Clock::time_point last_;
 };
 
 /// Keeps the failure of the first point, whichever thread met it.

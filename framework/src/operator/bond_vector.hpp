@@ -4,6 +4,7 @@
 // Vectors of a pack of bonds, one bond a lane: positions and velocities relative to the point.
 #pragma once
 
+#include "operator/transpose.hpp"
 #include "periporo/tensor.hpp"
 
 #include <array>

@@ -3,6 +3,7 @@
 //
 #include "operator/point_correspondence.hpp"
 
+#include "operator/block_loop.hpp"
 #include "operator/bond_forces.hpp"
 #include "operator/bond_update.hpp"
 #include "operator/thread_buffers.hpp"
@@ -93,45 +94,44 @@ void PointCorrespondenceForceState::evaluate(Model& model, const Evaluation& eva
 {
     FirstFailure failure;
     BondForces::prepare(model);
-#pragma omp parallel
-    {
+    for_every_block(model, [&](std::size_t block, OperatorSamples& samples) {
         auto& workspace = thread_buffers<StressWorkspace>();
-#pragma omp for schedule(dynamic, 1)
-        for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
-            BondForces forces(model, block);
-            for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
-                const FamilyView family = model.families[i];
-                const PointKinematics point = point_kinematics(model, i, family, influence());
-                BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state(i), evaluation,
-                                  workspace);
-                for (std::size_t p = 0; p < family.packs; ++p) {
-                    // all bonds of a sound point are active
-                    const std::uint8_t lanes = point.sound ? family.lanes(p) : std::uint8_t{0};
-                    const Tensor<Pack> gradient = on_all_lanes(point.gradient, lane_mask(lanes));
-                    stress.begin(p, at_mid_step(gradient, 2.0 * evaluation.gradient_lag()), lanes);
-                    model.bonds.active[family.first_pack + p] = lanes;
-                }
-                if (const MaterialStatus status = stress.update(); !status.converged)
-                    failure.report(i, status);
-
-                SymmetricTensor<Pack> sum;
-                Pack work = 0.0;
-                Pack dilation = 0.0;
-                for (std::size_t p = 0; p < family.packs; ++p) {
-                    const BondStress::Outcome bond = stress.end(p);
-                    sum += bond.stress;
-                    work += bond.work;
-                    dilation += bond.dilation;
-                }
-                const double share = point.sound ? 1.0 / static_cast<double>(family.count) : 0.0;
-                model.stress_work[i] = model.points.volume[i] * share * reduce(work);
-                model.volume_rate[i] = share * reduce(dilation);
-                model.inactive_bonds[i] = point.sound ? 0 : static_cast<std::uint32_t>(family.count);
-                model.free_grain[i] = point.sound ? 0 : 1;
-                add_forces(model, i, family, influence(), share * matrix(sum) * point.inverse_shape, forces);
+        BondForces forces(model, block);
+        for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
+            SampledTimes times(samples, i);
+            const FamilyView family = model.families[i];
+            const PointKinematics point = point_kinematics(model, i, family, influence());
+            BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state(i), evaluation, workspace);
+            for (std::size_t p = 0; p < family.packs; ++p) {
+                // all bonds of a sound point are active
+                const std::uint8_t lanes = point.sound ? family.lanes(p) : std::uint8_t{0};
+                const Tensor<Pack> gradient = on_all_lanes(point.gradient, lane_mask(lanes));
+                stress.begin(p, at_mid_step(gradient, 2.0 * evaluation.gradient_lag()), lanes);
+                model.bonds.active[family.first_pack + p] = lanes;
             }
+            times.end_of(&OperatorSamples::kinematics);
+            if (const MaterialStatus status = stress.update(); !status.converged)
+                failure.report(i, status);
+            times.end_of(&OperatorSamples::material);
+
+            SymmetricTensor<Pack> sum;
+            Pack work = 0.0;
+            Pack dilation = 0.0;
+            for (std::size_t p = 0; p < family.packs; ++p) {
+                const BondStress::Outcome bond = stress.end(p);
+                sum += bond.stress;
+                work += bond.work;
+                dilation += bond.dilation;
+            }
+            const double share = point.sound ? 1.0 / static_cast<double>(family.count) : 0.0;
+            model.stress_work[i] = model.points.volume[i] * share * reduce(work);
+            model.volume_rate[i] = share * reduce(dilation);
+            model.inactive_bonds[i] = point.sound ? 0 : static_cast<std::uint32_t>(family.count);
+            model.free_grain[i] = point.sound ? 0 : 1;
+            add_forces(model, i, family, influence(), share * matrix(sum) * point.inverse_shape, forces);
+            times.end_of(&OperatorSamples::force);
         }
-    }
+    });
     failure.raise(model);
     BondForces::hand_out(model);
 }

@@ -3,6 +3,7 @@
 //
 #include "operator/sub_horizon.hpp"
 
+#include "operator/block_loop.hpp"
 #include "operator/bond_forces.hpp"
 #include "operator/bond_update.hpp"
 #include "operator/bond_vector.hpp"
@@ -230,41 +231,32 @@ void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) 
     const double thickness = least_relative_thickness * influence().second_moment();
     FirstFailure failure;
     BondForces::prepare(model);
-#pragma omp parallel
-    {
+    for_every_block(model, [&](std::size_t block, OperatorSamples& samples) {
         auto& w = thread_buffers<Workspace>();
-        OperatorSamples samples;
-#pragma omp for schedule(dynamic, 1)
-        for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
-            BondForces forces(model, block);
-            for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
-                SampledTimes times(samples, i);
-                const FamilyView family = model.families[i];
-                w.reserve(family.packs);
-                const FamilySums family_sums = gather(model, i, family, influence(), w);
-                sum_sub_horizons(model.sub_horizons[i], w.features, w.sums);
-                BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state(i), evaluation,
-                                  w.stress);
-                const double total = kinematics(model, i, family, family_sums, conjugate, thickness,
-                                                evaluation.gradient_lag(), least_squared, w, stress);
-                const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;
-                times.end_of(&OperatorSamples::kinematics);
-                if (const MaterialStatus status = stress.update(); !status.converged)
-                    failure.report(i, status);
-                times.end_of(&OperatorSamples::material);
+        BondForces forces(model, block);
+        for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
+            SampledTimes times(samples, i);
+            const FamilyView family = model.families[i];
+            w.reserve(family.packs);
+            const FamilySums family_sums = gather(model, i, family, influence(), w);
+            sum_sub_horizons(model.sub_horizons[i], w.features, w.sums);
+            BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state(i), evaluation, w.stress);
+            const double total = kinematics(model, i, family, family_sums, conjugate, thickness,
+                                            evaluation.gradient_lag(), least_squared, w, stress);
+            const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;
+            times.end_of(&OperatorSamples::kinematics);
+            if (const MaterialStatus status = stress.update(); !status.converged)
+                failure.report(i, status);
+            times.end_of(&OperatorSamples::material);
 
-                const double moment_factor = conjugate ? reciprocal_total : 1.0 / family_sums.volume;
-                stress_moments(model, i, family, stress, reciprocal_total, moment_factor, least_squared, w);
-                if (conjugate)
-                    sum_sub_horizons(model.sub_horizons[i], w.moments, w.moment_sums);
-                add_forces(model, i, family, least_squared.has_value(), conjugate ? w.moment_sums : w.moments, w,
-                           forces);
-                times.end_of(&OperatorSamples::force);
-            }
+            const double moment_factor = conjugate ? reciprocal_total : 1.0 / family_sums.volume;
+            stress_moments(model, i, family, stress, reciprocal_total, moment_factor, least_squared, w);
+            if (conjugate)
+                sum_sub_horizons(model.sub_horizons[i], w.moments, w.moment_sums);
+            add_forces(model, i, family, least_squared.has_value(), conjugate ? w.moment_sums : w.moments, w, forces);
+            times.end_of(&OperatorSamples::force);
         }
-#pragma omp critical(periporo_operator_samples)
-        model.operator_samples += samples;
-    }
+    });
     failure.raise(model);
     BondForces::hand_out(model);
 }

@@ -1,0 +1,52 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The loop of an evaluation over all points, and where its time goes.
+#pragma once
+
+#include "model/model.hpp"
+
+#include <chrono>
+
+namespace periporo {
+
+/// Calls visit(block, samples) for every block of points, in parallel, and adds the samples to those of the model.
+template <class Visit>
+void for_every_block(Model& model, Visit&& visit)
+{
+#pragma omp parallel
+    {
+        OperatorSamples samples;
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < model.halos.blocks(); ++block)
+            visit(block, samples);
+#pragma omp critical(periporo_operator_samples)
+        model.operator_samples += samples;
+    }
+}
+
+/// Takes the time of the parts of an evaluation for one point of sixteen: a clock for every point would be felt.
+class SampledTimes {
+public:
+    SampledTimes(OperatorSamples& samples, std::size_t point) : samples_(samples), sampled_(point % 16 == 8)
+    {
+        if (sampled_)
+            last_ = Clock::now();
+    }
+    void end_of(double OperatorSamples::*part)
+    {
+        if (!sampled_)
+            return;
+        const Clock::time_point now = Clock::now();
+        samples_.*part += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    OperatorSamples& samples_;
+    bool sampled_;
+    Clock::time_point last_;
+};
+
+} // namespace periporo

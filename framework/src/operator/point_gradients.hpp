@@ -1,0 +1,75 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What points lend to the bonds of the bond projection: first of all their velocity gradients.
+#pragma once
+
+#include "model/model.hpp"
+#include "operator/influence.hpp"
+
+namespace periporo {
+
+/// Sixteen doubles of every point and image, in memory of the model. The first nine are a tensor row by row, which
+/// images hold in their own frame, so that bonds need not ask.
+class LentRows {
+public:
+    static constexpr std::size_t values = 16;
+
+    /// Doubles that the rows of a model take.
+    static std::size_t room(const Model& model) { return values * (model.size() + model.families.images().size()); }
+
+    /// @param rows of room(model) doubles
+    LentRows(const Model& model, double* rows) : model_(model), rows_(rows) {}
+
+    double* operator[](std::size_t point) { return rows_ + point * values; }
+    const double* operator[](std::size_t point) const { return rows_ + point * values; }
+
+    /// Rows of images from those of their parents.
+    void show_images();
+
+private:
+    const Model& model_;
+    double* rows_;
+};
+
+/// The velocity gradient of every point by its whole family, with n = zeta/|zeta|,
+///     K_i = sum_j omega V_j n (x) n,  L_i = [sum_j omega V_j (v_j - v_i) (x) zeta/|zeta|^2] K_i^-1,
+/// and which bonds are active: those whose ends are both sound, det K_i/(tr K_i/3)^3 >= least_shape_quality, and that
+/// are no shorter than shortest_bond spacings.
+class PointGradients {
+public:
+    /// A row: L_i, 1/w0_i with w0_i = sum_j omega V_j over active bonds (0 when there is none), K_i^-1 as xx yy zz xy
+    /// yz xz (all zero where the point is not sound).
+    enum Place : std::size_t { gradient_at = 0, reciprocal_weight_at = 9, inverse_shape_at = 10 };
+
+    /// @param rows of LentRows::room(model) doubles
+    PointGradients(Model& model, const Influence& influence, double* rows);
+
+    /// Finds everything anew; writes the activity of bonds and points to the model.
+    void find();
+
+    const double* operator[](std::size_t point) const { return rows_[point]; }
+
+private:
+    bool sound(std::size_t point) const { return rows_[point][inverse_shape_at] != 0.0; }
+    bool find_gradient(std::size_t point);
+    double find_activity(std::size_t point);
+
+    Model& model_;
+    const Influence& influence_;
+    double least_squared_; ///< of the length of an active bond [m2]
+    LentRows rows_;
+};
+
+/// Nine doubles as a tensor row by row, and back.
+inline Tensor<double> tensor_at(const double* c)
+{
+    return {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]};
+}
+inline void store_tensor(const Tensor<double>& t, double* c)
+{
+    for (const double component : {t.xx, t.xy, t.xz, t.yx, t.yy, t.yz, t.zx, t.zy, t.zz})
+        *c++ = component;
+}
+
+} // namespace periporo
