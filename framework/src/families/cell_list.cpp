@@ -15,7 +15,8 @@ constexpr double most_cells_per_position = 8.0;
 
 } // namespace
 
-CellList::CellList(std::span<const Vector3> positions, double reach) : lower_(Vector3::Zero())
+CellList::CellList(std::span<const Vector3> positions, double reach)
+    : lower_(Vector3::Zero()), size_(reach * (1.0 + 1e-9)), near_squared_(size_ * size_)
 {
     Vector3 upper = Vector3::Zero();
     if (!positions.empty()) {
@@ -25,8 +26,6 @@ CellList::CellList(std::span<const Vector3> positions, double reach) : lower_(Ve
             upper = upper.cwiseMax(x);
         }
     }
-    size_ = reach * (1.0 + 1e-9);
-    near_squared_ = size_ * size_;
     const Vector3 extent = upper - lower_;
     const auto cells = [&] {
         const Vector3 n = (extent / size_).array().floor() + 1.0;

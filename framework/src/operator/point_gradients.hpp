@@ -32,14 +32,12 @@ private:
     double* rows_;
 };
 
-/// The velocity gradient of every point by its whole family, with n = zeta/|zeta|,
-///     K_i = sum_j omega V_j n (x) n,  L_i = [sum_j omega V_j (v_j - v_i) (x) zeta/|zeta|^2] K_i^-1,
-/// and which bonds are active: those whose ends are both sound, det K_i/(tr K_i/3)^3 >= least_shape_quality, and that
-/// are no shorter than shortest_bond spacings.
+/// K_i, L_i and w0_i of every point, as bond_projection.hpp defines them, and which bonds are active: those whose ends
+/// are both sound and that are no shorter than shortest_bond spacings.
 class PointGradients {
 public:
-    /// A row: L_i, 1/w0_i with w0_i = sum_j omega V_j over active bonds (0 when there is none), K_i^-1 as xx yy zz xy
-    /// yz xz (all zero where the point is not sound).
+    /// A row: L_i, 1/w0_i (0 without an active bond), K_i^-1 as xx yy zz xy yz xz (all zero where the point is not
+    /// sound).
     enum Place : std::size_t { gradient_at = 0, reciprocal_weight_at = 9, inverse_shape_at = 10 };
 
     /// @param rows of LentRows::room(model) doubles
