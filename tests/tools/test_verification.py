@@ -87,14 +87,15 @@ class Command(unittest.TestCase):
         self.assertIn("p_weave", error)
         self.assertIn("p_wave", error)
 
-    def test_a_case_that_fails_shows_its_command_and_what_the_program_said(self):
+    def test_cases_that_fail_show_their_commands_and_what_the_program_said(self):
         with tempfile.TemporaryDirectory() as folder:
             program = Path(folder) / "program"
             program.write_text("#!/bin/sh\necho 'it went wrong here' >&2\nexit 1\n")
             program.chmod(0o755)
-            status, error = self.run_main("--small", "--program", program, "p_wave")
+            status, error = self.run_main("--small", "--program", program, "p_wave", "incline")
         self.assertEqual(status, 1)
         self.assertIn("p_wave.toml", error)
+        self.assertIn("incline.toml", error)  # the first does not keep the second from running
         self.assertIn("it went wrong here", error)
 
 
