@@ -6,6 +6,7 @@
 #include "unit/output/result_content.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -56,33 +57,39 @@ TEST_CASE("one and two threads end at the same bits, for every force state")
     }
 }
 
-TEST_CASE("a run stopped twice and resumed ends at the same bits as one that was never stopped")
+TEST_CASE("a run stopped three times, at first while it settles, and resumed ends at the same bits as one that was "
+          "never stopped")
 {
-    // the column is wet, and dries while it collapses
+    // the column is wet, settles for long, and dries while it collapses
     const std::string drying =
-        coarse + R"(--set 'body.column.water={ type = "uniform", suction = "1 kPa", saturation = 0.3 }' )" +
+        coarse + R"(--set 'stage.0.until.residual=1e-9' )" +
+        R"(--set 'body.column.water={ type = "uniform", suction = "1 kPa", saturation = 0.3 }' )" +
         R"(--set 'stage.1.water=[{ body = "column", type = "uniform", suction = "2 kPa", saturation = 0.1, )" +
         R"(over = "150 ms" }]' )";
     const ProgramFolder folder;
     REQUIRE(folder.run(drying + "--quiet --threads 1 --out whole").status == 0);
-    // SIGTERM as soon as the first history rows are on the disk, then SIGINT in the middle of the rest
-    folder.write("stopped.sh", "set -u\n"
-                               "'" PERIPORO_PROGRAM "' " +
-                                   drying +
-                                   " --quiet --threads 1 --out parts $2 &\n"
-                                   "pid=$!\n"
-                                   "while kill -0 $pid 2> /dev/null && [ \"$(cat parts/history.csv.part | wc -l)\" -lt "
-                                   "\"$3\" ]; do :; done 2> /dev/null\n"
-                                   "kill -s \"$1\" $pid\n"
-                                   "wait $pid\n");
-    const auto stopped = [&](const std::string& arguments) {
-        const int status = std::system(("cd '" + folder.path().string() + "' && sh stopped.sh " + arguments).c_str());
+    const auto stopped = [&](const std::string& signal, const std::string& when, const std::string& more) {
+        folder.write("stopped.sh", "'" PERIPORO_PROGRAM "' " + drying + "--quiet --threads 1 --out parts " + more +
+                                       " &\n"
+                                       "pid=$!\n"
+                                       "while kill -0 $pid 2> /dev/null && ! " +
+                                       when +
+                                       "; do :; done 2> /dev/null\n"
+                                       "kill -s " +
+                                       signal +
+                                       " $pid\n"
+                                       "wait $pid\n");
+        const int status = std::system(("cd '" + folder.path().string() + "' && sh stopped.sh").c_str());
         return WEXITSTATUS(status);
     };
-    REQUIRE(stopped("TERM '' 2") == 130);
+    const auto rows = [](int count) { return fmt::format("[ $(cat parts/history.csv.part | wc -l) -ge {} ]", count); };
+    REQUIRE(stopped("TERM", "{ grep -q 'stable step' parts/run.log && sleep 0.2; }", "") == 130);
+    CHECK(ProgramFolder::read(folder.path() / "parts/run.log").find("interrupted in stage 'geostatic'") !=
+          std::string::npos);
+    REQUIRE(stopped("TERM", rows(2), "--resume") == 130);
     CHECK(std::filesystem::exists(folder.path() / "parts/checkpoint.h5"));
     CHECK(content_of(folder.path() / "parts/results.h5").count("/snapshots/000000/position") == 1); // complete file
-    REQUIRE(stopped("INT --resume 70") == 130);
+    REQUIRE(stopped("INT", rows(70), "--resume") == 130);
     REQUIRE(folder.run(drying + "--quiet --threads 1 --out parts --resume").status == 0);
     CHECK(differences(results(folder.path() / "whole/results.h5"), results(folder.path() / "parts/results.h5")) ==
           std::set<std::string>{});

@@ -150,7 +150,7 @@ struct StageDescription {
     std::vector<PlaneDescription> rollers; ///< frictionless walls during this stage: planes are symmetry planes, a
                                            ///< cylinder holds the radial velocity of the points beside it
     double residual = 1e-3;                ///< quasi_static: |internal + external force|/|gravity| to reach [-]
-    double damping = 0.8;                  ///< quasi_static: Cundall's local damping coefficient [-]
+    double damping = 0.8;                  ///< quasi_static: coefficient of combined local damping [-]
     std::int64_t maximum_steps = 20000;    ///< quasi_static
     std::string response = "elastic";      ///< quasi_static: "elastic" or "full"
     double duration = 0.0;                 ///< dynamic [s]

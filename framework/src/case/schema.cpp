@@ -247,7 +247,10 @@ TableRules quasi_static_rules()
     TableRules rules{
         {Parameter::text_list("rollers", 0, "Frictionless walls during the stage, [\"x = 100 mm\"] or [\"r = 100 mm\"]")
              .optional(),
-         Parameter::real("damping", dimension::none, "Local damping coefficient").above(0.0).below(1.0).by_default(0.8),
+         Parameter::real("damping", dimension::none, "Coefficient of combined local damping")
+             .above(0.0)
+             .below(1.0)
+             .by_default(0.8),
          Parameter::integer("maximum_steps", "Steps after which the stage has failed").at_least(1).by_default(20000),
          Parameter::text("response", "Material response while settling")
              .one_of({"elastic", "full"})

@@ -103,6 +103,7 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     archive.put("saturation_after", std::span<const double>(parts.water.saturation_after));
 
     const Dynamics::State& dynamics = parts.dynamics.state();
+    archive.put("undamped_force", flat(dynamics.undamped_force));
     const EnergyLedger& ledger = dynamics.ledger;
     const std::vector<double> reals{
         at.time,           at.stage_start,       at.time_step,       at.wall_seconds,
@@ -198,7 +199,8 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     dynamics.force_squared_per_mass = reals.at(15);
     dynamics.ledger.boundary = reals.at(16);
     dynamics.refreshes = static_cast<std::uint64_t>(integers.at(6));
-    parts.dynamics.restore(dynamics);
+    dynamics.undamped_force = vectors(archive.reals("undamped_force"));
+    parts.dynamics.restore(std::move(dynamics));
 }
 
 } // namespace periporo

@@ -28,6 +28,7 @@ void Dynamics::refresh()
 void Dynamics::start()
 {
     state_.force_scale = 0.0;
+    state_.undamped_force.clear();
     // What comes, goes or begins to move at once does work too: points that are brought to speed, contacts with an
     // obstacle that is taken away.
     const double before = kinetic_energy() + contact_.energy();
@@ -120,9 +121,11 @@ void Dynamics::sum_forces(const StepOptions& options)
     for (std::size_t i = 0; i < n; ++i)
         points.force[i] = model_.internal_force[i] + points.mass[i] * model_.gravity;
     using Approach = ContactForces::Approach;
-    contact_.add_reactions(model_, options.time_step, options.local_damping > 0.0 ? Approach::none : Approach::real,
+    // Friction stops the slip of a contact within the step, also when damping has multiplied it.
+    const double stopping_time = (1.0 + options.local_damping) * options.time_step;
+    contact_.add_reactions(model_, stopping_time, options.local_damping > 0.0 ? Approach::none : Approach::real,
                            points.force);
-    contact_.add_surface_friction(model_, options.time_step, points.force);
+    contact_.add_surface_friction(model_, stopping_time, points.force);
     held_power_ = hold_forces();
     const double squared_gravity = model_.gravity.squaredNorm();
     const auto [unbalanced, weight] = ordered_sums<2>(n, [&](std::size_t i, std::array<double, 2>& sum) {
@@ -132,15 +135,26 @@ void Dynamics::sum_forces(const StepOptions& options)
     state_.force_scale = weight > 0.0 ? std::sqrt(weight) : std::max(state_.force_scale, std::sqrt(unbalanced));
     state_.residual = state_.force_scale > 0.0 ? std::sqrt(unbalanced) / state_.force_scale : 0.0;
     if (options.local_damping > 0.0) {
-#pragma omp parallel for schedule(static)
-        for (std::size_t i = 0; i < n; ++i)
-            for (Eigen::Index c = 0; c < 3; ++c) {
-                const double v = points.velocity[i][c];
-                const double f = points.force[i][c];
-                points.force[i][c] -= options.local_damping * std::abs(f) * static_cast<double>((v > 0.0) - (v < 0.0));
-            }
+        damp_forces(options.local_damping);
         hold_forces();
     }
+}
+
+void Dynamics::damp_forces(double coefficient)
+{
+    Points& points = model_.points;
+    std::vector<Vector3>& last = state_.undamped_force;
+    if (last.empty())
+        last = points.force;
+    const auto sign = [](double value) { return static_cast<double>((value > 0.0) - (value < 0.0)); };
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (Eigen::Index c = 0; c < 3; ++c) {
+            const double force = points.force[i][c];
+            const double brake = sign(points.velocity[i][c]) - sign(force - last[i][c]);
+            points.force[i][c] -= 0.5 * coefficient * std::abs(force) * brake;
+            last[i][c] = force;
+        }
 }
 
 double Dynamics::force_squared_per_mass() const

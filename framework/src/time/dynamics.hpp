@@ -30,7 +30,7 @@ struct HeldDirection {
 struct StepOptions {
     double time_step = 0.0; ///< [s]
     MaterialResponse response = MaterialResponse::full;
-    double local_damping = 0.0; ///< Cundall's coefficient; 0 none [-]
+    double local_damping = 0.0; ///< coefficient of the combined local damping; 0 none [-]
 };
 
 class Dynamics {
@@ -66,9 +66,10 @@ public:
         double force_scale = 0.0;            ///< that the residual is relative to [N]
         double force_squared_per_mass = 0.0; ///< sum |F|^2/m at the last evaluation [N2/kg]
         std::uint64_t refreshes = 0;
+        std::vector<Vector3> undamped_force; ///< of each point in the last damped step since start(), or none [N]
     };
     const State& state() const { return state_; }
-    void restore(const State& state) { state_ = state; }
+    void restore(State state) { state_ = std::move(state); }
 
     /// |internal + contact + friction + gravity force|/|gravity force|, root sums over all points, without damping [-].
     /// Without gravity it is relative to the largest unbalanced force since start().
@@ -89,6 +90,13 @@ private:
     /// First half kick and motion of the points.
     void drift(double time_step);
     void sum_forces(const StepOptions& options);
+    /// Takes half of coefficient*|F| (sign v - sign dF/dt) from each component F of the force: combined local damping
+    /// (Itasca Consulting Group, FLAC, Theory and Background, of Cundall 1987's local damping, which has 2 sign v).
+    /// Both terms brake a vibration alike. Of points that tremble while the body creeps, slower than it creeps, the
+    /// sign of v tells nothing: damped by it alone the tremble lives on and, its force rectified, holds the creep (a
+    /// cantilever of 16 spacings had not come to rest after 20,000 steps, with both terms after 11,400).
+    /// @param coefficient below 1, so that no force is turned round [-]
+    void damp_forces(double coefficient);
     /// Second half kick and volumes.
     void kick(double time_step);
     void update_ledger(double time_step);

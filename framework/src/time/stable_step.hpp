@@ -78,8 +78,8 @@ StableStep stable_step(Model& model, const ForceState& force_state, ContactForce
 /// @param damping_rate c [1/s]
 double damped_limit(double frequency_squared, double damping_rate);
 
-/// What Cundall's local damping leaves of the stable step, (1 + alpha)^(-1/2): where force and velocity oppose each
-/// other it multiplies the force by 1 + alpha, and so the stiffness.
+/// What local damping leaves of the stable step, (1 + alpha)^(-1/2): where a force grows against the velocity it
+/// multiplies the force by 1 + alpha, and so the stiffness.
 double local_damping_factor(double coefficient);
 
 } // namespace periporo
