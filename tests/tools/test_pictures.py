@@ -141,6 +141,22 @@ class UnusualResults(unittest.TestCase):
         self.assertNotIn("laws", self.comparison())
         self.assertNotIn("Lube", text)
 
+    def test_a_slab_one_point_thick_against_a_wall_is_measured_along_x(self):
+        synthetic.write_results(self.folder, quarter=False, case={"spacing": 0.01, "symmetry": []})
+        with h5py.File(self.folder / "results.h5", "r+") as file:
+            for group in file["snapshots"].values():
+                x, y, _ = np.asarray(group["position"]).T
+                kept = (y >= 0.0) & (y < 0.01) & (x > 0.0)  # one row
+                for name, values in [(name, np.asarray(data)[kept]) for name, data in group.items()]:
+                    unit = group[name].attrs["unit"]
+                    del group[name]
+                    group.create_dataset(name, data=values).attrs["unit"] = unit
+        status, text, _ = called(self.folder)
+        self.assertEqual(status, 0)
+        # the lowest row of the cone, y = z = 5 mm, ends where hypot(x, y) <= 0.2 m (1 - z/0.08 m): at x = 185 mm
+        self.assertAlmostEqual(self.comparison()["measured"]["front_mean"], 0.19)
+        self.assertNotIn("along x and y", text)
+
     def test_without_a_summary_the_spacing_comes_from_the_volumes(self):
         synthetic.write_results(self.folder, quarter=False)
         (self.folder / "summary.json").unlink()

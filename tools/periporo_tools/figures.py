@@ -79,7 +79,7 @@ def deposit(results: Results, path: Path, colour_max: float | None, extent: floa
 
 def profile(results: Results, comparison: dict, path: Path) -> Path:
     """Height over distance from the axis before and after, with what the laws say."""
-    planar = str(comparison.get("law", "")).startswith("planar")
+    planar = comparison["planar"]
     figure, axes = plt.subplots(figsize=(9, 4.6))
     furthest = 0.0
     for snapshot, colour, name in (
@@ -99,7 +99,7 @@ def profile(results: Results, comparison: dict, path: Path) -> Path:
     measured = comparison["measured"]
     front = measured["front_mean"] * MILLI
     axes.plot([front], [0], marker="^", color=BLUE, markersize=9, clip_on=False, linestyle="none", zorder=5,
-              label=f"front, mean over directions: {front:.0f} mm")
+              label=f"front, mean over {'sides' if planar else 'directions'}: {front:.0f} mm")
     axes.plot([measured["radius_99"] * MILLI], [0], marker="|", color=BLUE, markersize=16, markeredgewidth=2.5,
               clip_on=False, linestyle="none", zorder=5,
               label=f"99 % of the mass within {measured['radius_99'] * MILLI:.0f} mm")

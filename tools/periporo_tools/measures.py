@@ -47,6 +47,11 @@ def radius(position: np.ndarray) -> np.ndarray:
     return np.hypot(position[:, 0], position[:, 1])
 
 
+def is_planar(body: Snapshot, spacing: float) -> bool:
+    """Whether a body is one point thick along y, as a periodic slab in plane strain is."""
+    return bool(np.ptp(body.position[:, 1]) < 0.5 * spacing)
+
+
 def _angles(symmetry: frozenset[str]) -> tuple[float, float]:
     """The directions that a model covers."""
     if symmetry >= {"x", "y"}:
