@@ -103,7 +103,7 @@ def profile(results: Results, comparison: dict, path: Path) -> Path:
     axes.plot([measured["radius_99"] * MILLI], [0], marker="|", color=BLUE, markersize=16, markeredgewidth=2.5,
               clip_on=False, linestyle="none", zorder=5,
               label=f"99 % of the mass within {measured['radius_99'] * MILLI:.0f} mm")
-    furthest = max(furthest, _draw_laws(axes, comparison))
+    furthest = max(furthest, measured["radius_99"] * MILLI, _draw_laws(axes, comparison))
     axes.set_xlim(0.0, 1.05 * furthest)
     axes.set_ylim(0.0, None)
     axes.set_xlabel("distance from the " + ("middle plane" if planar else "axis") + " [mm]")

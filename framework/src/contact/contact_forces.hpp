@@ -68,6 +68,7 @@ public:
 
     /// Adds normal forces of all laws and friction between bodies to `force`. Records must be current, with mid-step
     /// velocities.
+    /// @param time_step within which friction may stop a slip, longer where its force will be multiplied [s]
     void add_reactions(const Model& model, double time_step, Approach approach, std::vector<Vector3>& force);
 
     /// Adds Coulomb friction on rigid surfaces, last of all forces: it takes from the tangential force and momentum of

@@ -92,9 +92,9 @@ private:
     void sum_forces(const StepOptions& options);
     /// Takes half of coefficient*|F| (sign v - sign dF/dt) from each component F of the force: combined local damping
     /// (Itasca Consulting Group, FLAC, Theory and Background, of Cundall 1987's local damping, which has 2 sign v).
-    /// Both terms brake a vibration alike. Of points that tremble while the body creeps, slower than it creeps, the
-    /// sign of v tells nothing: damped by it alone the tremble lives on and, its force rectified, holds the creep (a
-    /// cantilever of 16 spacings had not come to rest after 20,000 steps, with both terms after 11,400).
+    /// Both terms brake a vibration alike. Where points tremble more slowly than their body creeps, the sign of v says
+    /// nothing of the tremble: damped by it alone the tremble lives on and, its force rectified, holds the creep (a
+    /// cantilever twelve points thick had not come to rest after 20,000 steps, with both terms after 11,400).
     /// @param coefficient below 1, so that no force is turned round [-]
     void damp_forces(double coefficient);
     /// Second half kick and volumes.
