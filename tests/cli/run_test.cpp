@@ -98,7 +98,7 @@ TEST_CASE("a run stopped three times, at first while it settles, and resumed end
     CHECK_FALSE(std::filesystem::exists(folder.path() / "parts/checkpoint.h5"));
 }
 
-TEST_CASE("a checkpoint of another case is refused")
+TEST_CASE("a checkpoint of another case or another version of the program is refused")
 {
     const ProgramFolder folder;
     folder.write(
@@ -110,6 +110,10 @@ TEST_CASE("a checkpoint of another case is refused")
     const ProgramResult result = folder.run(coarse + "--set 'contact.0.friction=0.4' --out it --resume");
     CHECK(result.status == 2);
     CHECK(result.error.find("another case") != std::string::npos);
+    H5::H5File((folder.path() / "it/checkpoint.h5").string(), H5F_ACC_RDWR).unlink("format"); // as it was at first
+    const ProgramResult old = folder.run(coarse + "--out it --resume");
+    CHECK(old.status == 2);
+    CHECK(old.error.find("another version of the program") != std::string::npos);
 }
 
 TEST_CASE("a run that goes wrong says where and leaves a readable result")

@@ -15,6 +15,9 @@
 namespace periporo {
 namespace {
 
+/// To be counted up whenever a checkpoint needs something that it did not hold before.
+constexpr const char* format = "periporo checkpoint 2";
+
 std::span<const double> flat(const std::vector<Vector3>& vectors)
 {
     static_assert(sizeof(Vector3) == 3 * sizeof(double));
@@ -72,6 +75,7 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     const Points& points = model.points;
     const RunPosition& at = parts.position;
     ArchiveWriter archive(file);
+    archive.put("format", format);
     archive.put("case", resolved_case);
     archive.put("position", flat(points.position));
     archive.put("velocity", flat(points.velocity));
@@ -130,6 +134,10 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
                      double contact_slack, const std::function<void(std::uint64_t stage)>& enter_stage)
 {
     const ArchiveReader archive(file);
+    if (!archive.has("format") || archive.text("format") != format)
+        throw ForeignCheckpoint(fmt::format("{} was written by another version of the program; start anew with "
+                                            "--overwrite, or go on with the program that wrote it",
+                                            file.string()));
     if (archive.text("case") != resolved_case)
         throw ForeignCheckpoint(fmt::format("{} was written by another case or with other --set values; run the case "
                                             "that it was started with, or start anew with --overwrite",

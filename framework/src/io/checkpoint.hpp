@@ -57,7 +57,8 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
 /// Restores a model that was built from the same case; constraints of the stage remain to be set.
 /// @param enter_stage gives the model the images and obstacles of a stage
 /// @param contact_slack as for ContactForces::find_candidates [m]
-/// @throws ForeignCheckpoint when it was written by another case, std::runtime_error when it cannot be read.
+/// @throws ForeignCheckpoint when it was written by another case or another version of the program, std::runtime_error
+/// when it cannot be read.
 void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case,
                      double contact_slack, const std::function<void(std::uint64_t stage)>& enter_stage);
 
