@@ -129,6 +129,15 @@ TEST_CASE("a run that goes wrong says where and leaves a readable result")
     CHECK(ProgramFolder::read(folder.path() / "bad/summary.json").find("\"failed\"") != std::string::npos);
 }
 
+TEST_CASE("a heap that twitches when its hold is taken away is not at rest before it slides")
+{
+    const ProgramFolder folder;
+    const std::string terrain = "run " PERIPORO_SOURCE_DIR "/cases/ground/terrain_slope.toml ";
+    REQUIRE(folder.run(terrain + "--set 'stage.1.duration=10 ms' --quiet --out heap").status == 0);
+    const auto summary = nlohmann::json::parse(ProgramFolder::read(folder.path() / "heap/summary.json"));
+    CHECK(summary["stages"][1]["end_time"].get<double>() >= 0.01);
+}
+
 TEST_CASE("a column that stands ends its stage when it could have fallen over its height, one that falls when it rests")
 {
     const ProgramFolder folder;

@@ -277,8 +277,9 @@ TableRules dynamic_rules()
          TablePresence::defaulted,
          "What ends the stage before its duration",
          {{Parameter::real("rest_speed", dimension::velocity,
-                           "Speed sqrt(2 E_kin/m) of a body below which it is at rest, once one has moved at "
-                           "twice this speed or could have fallen over its height")
+                           "Speed sqrt(2 E_kin/m) of a body below which it is at rest, once one could have "
+                           "fallen over its height; without gravity, or where something is driven, once one has "
+                           "moved at twice this speed")
                .above(0.0)
                .optional()}}}};
     return rules;

@@ -9,9 +9,9 @@
 
 namespace periporo {
 
-/// What has not moved in this time, with nothing changing about it, stands [s]: a free fall over the height that the
-/// model had at the start, (2 h/|g|)^(1/2). Infinite without gravity, and in a stage in which obstacles or held points
-/// move. Obstacles must be set for the stage.
+/// What is at rest after this time, with nothing changing about it, stays at rest [s]: a free fall over the height that
+/// the model had at the start, (2 h/|g|)^(1/2). Infinite without gravity, and in a stage in which obstacles or held
+/// points move. Obstacles must be set for the stage.
 double time_to_get_going(const Model& model, const CaseDescription& description, const StageDescription& stage);
 
 } // namespace periporo

@@ -279,10 +279,11 @@ bool Simulation::dynamic(const StageDescription& stage)
                                [&] { outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name); });
         progress_.update([&] { return stage_line((at_.time - at_.stage_start) / stage.duration); });
         if (stage.rest_speed) {
-            // What starts from rest comes to rest only after it has moved, unless it stands.
+            // What starts from rest comes to rest only after gravity had the time to move it, or what drives it has. A
+            // twitch at the beginning, as of points whose hold is taken away, is not yet the motion that is awaited.
             const double speed = dynamics_.mean_speed();
             at_.moved = at_.moved || speed > 2.0 * *stage.rest_speed;
-            const bool may_end = at_.moved ? water_.settled() : at_.time > stands_from;
+            const bool may_end = std::isfinite(stands_from) ? at_.time > stands_from : at_.moved && water_.settled();
             if (may_end && speed < *stage.rest_speed)
                 break;
         }
