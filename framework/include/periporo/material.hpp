@@ -63,6 +63,9 @@ public:
     /// modulus K + 4/3 G larger by 38 per cent.
     virtual double bulk_modulus() const = 0;
     virtual double shear_modulus() const = 0;
+    /// Do surfaces that came apart, or never were one, become one piece when they have come to rest against each other?
+    /// Soil does: its grains remember no surface. A solid does not: such surfaces keep touching by contact.
+    virtual bool closes() const { return true; }
     /// Advances stress and state of a block by one step. Does not throw.
     virtual MaterialStatus update(const MaterialBatch& batch) const = 0;
     /// Sets the state variables of a block from its settled effective stress and the overconsolidation ratio.

@@ -5,6 +5,7 @@
 //
 //     struct MyLaw {
 //         static constexpr std::size_t state_count = 1;
+//         static constexpr bool closes = false;                           // may be left out: Material::closes()
 //         static std::vector<Parameter> parameters();
 //         static std::vector<StateVariable> state_variables();            // state_count of them
 //         explicit MyLaw(const Parameters& parameters);
@@ -71,6 +72,14 @@ public:
     const std::vector<StateVariable>& state_variables() const override { return variables_; }
     double bulk_modulus() const override { return law_.bulk_modulus(); }
     double shear_modulus() const override { return law_.shear_modulus(); }
+
+    bool closes() const override
+    {
+        if constexpr (requires { Law::closes; })
+            return Law::closes;
+        else
+            return Material::closes();
+    }
 
     MaterialStatus update(const MaterialBatch& batch) const override
     {

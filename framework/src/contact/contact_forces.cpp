@@ -32,6 +32,8 @@ void ContactForces::find_candidates(const Model& model, double slack)
             smoothed_[a].find(model, *assignment.surface_body, other, assignment.law->cutoff(), slack);
         } else if (between_points_of_two_bodies(assignment)) {
             find_pairs(model, a, slack);
+        } else if (within_one_body(assignment)) {
+            find_pairs_apart(model, a, slack);
         }
     }
     follow_surfaces(model);

@@ -18,8 +18,8 @@ namespace periporo {
 
 /// One contact law at work: between the named bodies and a rigid surface, which is an obstacle or the law's own;
 /// between two different bodies, point against point or point against smoothed surface; or, where `bodies` names one
-/// body twice, between its free grains and all its points: bonded points of one body never need contact, their cut-off
-/// lies inside the horizon.
+/// body twice, between its pieces that are apart, and between its free grains and all its points. Points of one family
+/// that carry stress need no contact.
 struct ContactAssignment {
     std::shared_ptr<const Contact> law;
     std::vector<std::uint32_t> bodies;
@@ -47,13 +47,21 @@ struct ContactBound {
 class ContactForces {
 public:
     explicit ContactForces(std::vector<ContactAssignment> assignments)
-        : assignments_(std::move(assignments)), room_(assignments_.size()), deepest_(assignments_.size(), 0.0)
+        : assignments_(std::move(assignments)), candidates_(assignments_.size()), room_(assignments_.size()),
+          deepest_(assignments_.size(), 0.0)
     {
     }
 
     /// What may touch before the next refresh. To be called after every refresh.
     /// @param slack how much closer a pair of points may come until then [m]
     void find_candidates(const Model& model, double slack);
+    /// Pairs of points of one body that are apart, touch, and have come to rest against each other: the motion of the
+    /// pair has no more than a tenth of the energy that its contact stores, and the material closes. Sorted, with both
+    /// directions of each pair. Records must be current.
+    std::vector<ClosedPair> closed_pairs(const Model& model) const;
+    /// Energy that the contacts within bodies store at the positions of the records [J].
+    double energy_within_bodies(const Model& model);
+
     /// A point that lies deep in a rigid surface when that first acts, as a lattice puts it that does not follow the
     /// surface, takes the room that it finds: its reach is its distance, and grows to the whole when it moves away.
     /// With the whole reach at once the overlap would be energy from nowhere. To be called when a stage begins.
@@ -127,6 +135,8 @@ private:
     static Carrier carrier(const Model& model, const Support& support, std::span<const double> crowd);
 
     void find_pairs(const Model& model, std::size_t assignment, double slack);
+    /// Pieces of a body that are apart and may touch.
+    void find_pairs_apart(const Model& model, std::size_t assignment, double slack);
     void find_near_surfaces(const Model& model);
     void add_surface(const Model& model, std::size_t assignment, std::vector<Vector3>& force);
     void add_smoothed(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
@@ -142,8 +152,8 @@ private:
     void add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
     /// Are there points that for_each_touching() would visit? Finds them.
     bool may_touch(const Model& model, std::size_t assignment);
-    /// Marks the free grains of a body and their neighbours; false when there are none.
-    bool find_concerned(const Model& model, const ContactAssignment& assignment);
+    /// Marks the free grains of a body, their neighbours, and points with candidates; false when there are none.
+    bool find_concerned(const Model& model, std::size_t assignment);
     /// Calls visit(point, neighbours that it may touch, reach) for every point that may touch another under a law
     /// between points, with reach(point of the neighbour) [m]. In parallel.
     template <class Visit>
@@ -160,6 +170,13 @@ private:
     struct Candidates {
         std::vector<std::size_t> first;
         std::vector<std::uint32_t> neighbours;
+
+        std::span<const std::uint32_t> of(std::size_t point) const
+        {
+            if (neighbours.empty())
+                return {};
+            return {neighbours.data() + first[point], first[point + 1] - first[point]};
+        }
     };
     std::vector<Candidates> candidates_;
     std::vector<std::vector<std::uint32_t>> near_surface_; ///< for each assignment, points near its rigid surface
@@ -178,7 +195,7 @@ private:
     /// Contacts of each point under the assignment at hand. Friction that stops the slip of a pair within a step is
     /// divided by the larger number of its two ends: together they stop a point and never throw it back.
     std::vector<std::uint32_t> contacts_of_;
-    std::vector<std::uint8_t> concerned_; ///< 1: the point is a free grain or may touch one
+    std::vector<std::uint8_t> concerned_; ///< 1: the point may touch another of its body
     std::vector<Vector3> friction_;
     std::vector<SurfaceContact> surface_contacts_;
     std::vector<ContactBound> bounds_;

@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contact of points with points: of two bodies, and of free grains with all others of their body.
+// Contact of points with points: of two bodies, of pieces of one body, and of free grains with all others of theirs.
 #include "contact/assignment.hpp"
 #include "contact/contact_forces.hpp"
 #include "contact/contact_slopes.hpp"
@@ -85,6 +85,21 @@ void ContactForces::find_pairs(const Model& model, std::size_t assignment, doubl
     }
 }
 
+void ContactForces::find_pairs_apart(const Model& model, std::size_t assignment, double slack)
+{
+    const ContactAssignment& at = assignments_[assignment];
+    const double reach = at.law->cutoff() + slack;
+    Candidates& candidates = candidates_[assignment];
+    candidates.first.assign(model.size() + 1, 0);
+    for (std::uint32_t i = 0; i < model.size(); ++i) {
+        if (model.points.body[i] == at.bodies[0])
+            for (const std::uint32_t c : model.families.apart(i))
+                if ((model.records[c].x() - model.records[i].x()).squaredNorm() <= reach * reach)
+                    candidates.neighbours.push_back(c);
+        candidates.first[i + 1] = candidates.neighbours.size();
+    }
+}
+
 template <class Reach>
 void ContactForces::gather_pairs(const Model& model, const Contact& law, std::uint32_t point,
                                  std::span<const std::uint32_t> neighbours, const Reach& reach, double time_step,
@@ -164,13 +179,17 @@ void ContactForces::update_grain_reach(const Model& model, const ContactAssignme
     }
 }
 
-bool ContactForces::find_concerned(const Model& model, const ContactAssignment& assignment)
+bool ContactForces::find_concerned(const Model& model, std::size_t assignment)
 {
-    update_grain_reach(model, assignment);
+    const std::uint32_t body = assignments_[assignment].bodies[0];
+    const Candidates& apart = candidates_[assignment];
+    update_grain_reach(model, assignments_[assignment]);
     concerned_.assign(model.size(), 0);
-    bool some = false;
+    bool some = !apart.neighbours.empty();
     for (std::size_t i = 0; i < model.size(); ++i) {
-        if (model.free_grain[i] == 0 || model.points.body[i] != assignment.bodies[0])
+        if (!apart.of(i).empty())
+            concerned_[i] = 1;
+        if (model.free_grain[i] == 0 || model.points.body[i] != body)
             continue;
         some = true;
         concerned_[i] = 1;
@@ -183,42 +202,41 @@ bool ContactForces::find_concerned(const Model& model, const ContactAssignment& 
 
 bool ContactForces::may_touch(const Model& model, std::size_t assignment)
 {
-    const ContactAssignment& at = assignments_[assignment];
-    return within_one_body(at) ? find_concerned(model, at) : !candidates_[assignment].neighbours.empty();
+    return within_one_body(assignments_[assignment]) ? find_concerned(model, assignment)
+                                                     : !candidates_[assignment].neighbours.empty();
 }
 
 template <class Visit>
 void ContactForces::for_each_touching(const Model& model, std::size_t assignment, const Visit& visit) const
 {
     const auto n = static_cast<std::uint32_t>(model.size());
-    if (within_one_body(assignments_[assignment])) {
-#pragma omp parallel
-        {
-            thread_local std::vector<std::uint32_t> partners; // only ever grows
-#pragma omp for schedule(dynamic, 64)
-            for (std::uint32_t i = 0; i < n; ++i) {
-                if (concerned_[i] == 0)
-                    continue;
-                partners.clear();
-                const FamilyView family = model.families[i];
-                for (std::size_t b = 0; b < family.count; ++b)
-                    if (model.free_grain[i] != 0 || model.free_grain[model.families.parent(family.neighbours[b])] != 0)
-                        partners.push_back(family.neighbours[b]);
-                visit(i, std::span<const std::uint32_t>(partners), [this, i](std::uint32_t other) {
-                    return std::min(std::abs(grain_reach_[i]), std::abs(grain_reach_[other]));
-                });
-            }
-        }
-        return;
-    }
     const Candidates& candidates = candidates_[assignment];
     const double cutoff = assignments_[assignment].law->cutoff();
+    const auto whole_reach = [cutoff](std::uint32_t) { return cutoff; };
+    if (!within_one_body(assignments_[assignment])) {
 #pragma omp parallel for schedule(dynamic, 64)
-    for (std::uint32_t i = 0; i < n; ++i)
-        visit(i,
-              std::span(candidates.neighbours.data() + candidates.first[i],
-                        candidates.first[i + 1] - candidates.first[i]),
-              [cutoff](std::uint32_t) { return cutoff; });
+        for (std::uint32_t i = 0; i < n; ++i)
+            visit(i, candidates.of(i), whole_reach);
+        return;
+    }
+#pragma omp parallel
+    {
+        thread_local std::vector<std::uint32_t> partners; // only ever grows
+#pragma omp for schedule(dynamic, 64)
+        for (std::uint32_t i = 0; i < n; ++i) {
+            if (concerned_[i] == 0)
+                continue;
+            partners.clear();
+            const FamilyView family = model.families[i];
+            for (std::size_t b = 0; b < family.count; ++b)
+                if (model.free_grain[i] != 0 || model.free_grain[model.families.parent(family.neighbours[b])] != 0)
+                    partners.push_back(family.neighbours[b]);
+            visit(i, std::span<const std::uint32_t>(partners), [this, i](std::uint32_t other) {
+                return std::min(std::abs(grain_reach_[i]), std::abs(grain_reach_[other]));
+            });
+            visit(i, candidates.of(i), whole_reach); // pieces apart met from outside
+        }
+    }
 }
 
 void ContactForces::add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force)
@@ -228,7 +246,7 @@ void ContactForces::add_pairs(const Model& model, std::size_t assignment, double
     contacts_of_.assign(model.size(), 0);
     overlap_.assign(model.size(), 0.0);
     for_each_touching(model, assignment, [&](std::uint32_t i, std::span<const std::uint32_t> others, auto reach) {
-        contacts_of_[i] = static_cast<std::uint32_t>(std::ranges::count_if(others, [&](std::uint32_t c) {
+        contacts_of_[i] += static_cast<std::uint32_t>(std::ranges::count_if(others, [&](std::uint32_t c) {
             const double distance = (model.records[i].x() - model.records[c].x()).norm();
             return distance < reach(model.families.parent(c)) && distance > 0.0;
         }));
@@ -240,6 +258,54 @@ void ContactForces::add_pairs(const Model& model, std::size_t assignment, double
     });
     for (const double overlap : overlap_)
         note_overlap(assignment, overlap);
+}
+
+std::vector<ClosedPair> ContactForces::closed_pairs(const Model& model) const
+{
+    constexpr double calm = 0.1; // energy of the motion over that of the contact
+    std::vector<ClosedPair> closed;
+    for (std::size_t a = 0; a < assignments_.size(); ++a) {
+        const ContactAssignment& at = assignments_[a];
+        if (!within_one_body(at) || !model.bodies[at.bodies[0]].material->closes())
+            continue;
+        for (std::uint32_t i = 0; i < model.size(); ++i)
+            for (const std::uint32_t c : candidates_[a].of(i)) {
+                const std::uint32_t p = model.families.parent(c);
+                const std::uint32_t opposite = model.isometries.inverse(model.families.isometry(c));
+                if (i > p || (i == p && model.families.isometry(c) > opposite))
+                    continue; // seen from the other end
+                const Vector3 relative = model.records[i].v() - model.records[c].v();
+                const ContactPair pair{(model.records[i].x() - model.records[c].x()).norm(), 0.0,
+                                       model.points.volume[i],                               model.points.volume[p],
+                                       model.points.mass[i],                                 model.points.mass[p]};
+                ContactResponse response;
+                at.law->evaluate({&pair, 1}, {&response, 1});
+                if (!(response.force > 0.0 && 0.5 * reduced_mass(pair) * relative.squaredNorm() <= calm * response.energy))
+                    continue;
+                closed.push_back({i, model.families.key(c)});
+                closed.push_back({p, static_cast<std::uint64_t>(opposite) << 32 | i});
+            }
+    }
+    std::ranges::sort(closed);
+    closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
+    return closed;
+}
+
+double ContactForces::energy_within_bodies(const Model& model)
+{
+    approach_factor_ = 0.0;
+    point_energy_.assign(model.size(), 0.0);
+    // add_reactions() sets these anew
+    damping_.assign(model.size(), Vector3::Zero());
+    friction_.assign(model.size(), Vector3::Zero());
+    std::vector<Vector3> force(model.size(), Vector3::Zero());
+    for (std::size_t a = 0; a < assignments_.size(); ++a)
+        if (within_one_body(assignments_[a]))
+            add_pairs(model, a, 0.0, force);
+    double energy = 0.0;
+    for (const double one : point_energy_)
+        energy += one;
+    return energy;
 }
 
 void ContactForces::bound_pairs(const Model& model, std::size_t assignment)

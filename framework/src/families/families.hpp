@@ -1,9 +1,10 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Families: for every point all points of its body within the horizon.
+// Families: for every point the points of its body within the horizon that are of one piece with it.
 #pragma once
 
+#include "families/links.hpp"
 #include "model/aligned.hpp"
 #include "model/images.hpp"
 #include "model/points.hpp"
@@ -47,10 +48,20 @@ inline constexpr std::uint32_t largest_family = 1000;
 
 class Families {
 public:
-    /// Families of all points from their current positions, images included. They are mutual: every bond has one in
-    /// the opposite direction, held by the neighbour or by the parent of the image.
+    /// Families of all points from their current positions, images included: neighbours within the horizon that a chain
+    /// of links joins to the point, see Links and ChainSearch. They are mutual: every bond has one in the opposite
+    /// direction, held by the neighbour or by the parent of the image.
     /// @throws std::runtime_error naming the point when a family is larger than largest_family.
-    static Families find(const Points& points, IsometryTable& isometries, double horizon);
+    static Families find(const Points& points, IsometryTable& isometries, const FamilyRule& rule);
+
+    /// Neighbours of all points, as a checkpoint keeps them: families depend on those before them.
+    struct Kept {
+        std::vector<std::uint32_t> family_counts, family_neighbours, apart_counts, apart_neighbours;
+    };
+    Kept kept() const;
+    /// The families that were kept, for the positions that they were found from.
+    /// @throws std::runtime_error when they do not fit the points.
+    static Families restore(const Points& points, IsometryTable& isometries, double horizon, const Kept& kept);
 
     FamilyView operator[](std::size_t point) const
     {
@@ -58,6 +69,14 @@ public:
         return {count_[point], first_pack_[point + 1] - first, first, lower_[point],
                 neighbours_.data() + first * pack_width};
     }
+
+    /// Points and images of the body within the horizon of a point that are not of its family: pieces apart.
+    std::span<const std::uint32_t> apart(std::size_t point) const
+    {
+        return {apart_.data() + first_apart_[point], first_apart_[point + 1] - first_apart_[point]};
+    }
+    /// Is the neighbour with this key of the family of a point?
+    bool holds(std::uint32_t point, std::uint64_t neighbour_key) const;
 
     std::size_t points() const { return count_.size(); }
     std::size_t packs() const { return first_pack_.empty() ? 0 : first_pack_.back(); }
@@ -88,13 +107,26 @@ public:
     std::size_t memory() const;
 
 private:
-    void find_neighbours(const Points& points, const IsometryTable& isometries, double horizon);
+    /// Neighbours of the points of each block, one point after the other.
+    using Found = std::vector<std::vector<std::uint32_t>>;
+
+    std::vector<Vector3> positions_with_images(const Points& points, const IsometryTable& isometries) const;
+    void find_neighbours(const Points& points, const IsometryTable& isometries, const FamilyRule& rule);
+    void check_sizes(const Points& points) const;
+    /// Lays out families found block by block; `count_` must be set.
+    void lay_out(const Found& found);
+    void lay_out_apart(const Found& found, std::span<const std::uint32_t> counts);
+    /// Takes bonds to images out that have no opposite: the two ends measure a chain through images from different
+    /// sides, and rounding may tell them apart.
+    void drop_one_sided(const IsometryTable& isometries);
 
     std::vector<Image> images_;
     std::vector<std::uint32_t> count_;
     std::vector<std::uint16_t> lower_;
     std::vector<std::size_t> first_pack_; // points + 1
     std::vector<std::uint32_t> neighbours_;
+    std::vector<std::size_t> first_apart_; // points + 1
+    std::vector<std::uint32_t> apart_;
 };
 
 } // namespace periporo

@@ -16,7 +16,7 @@ namespace periporo {
 namespace {
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-constexpr const char* format = "periporo checkpoint 2";
+constexpr const char* format = "periporo checkpoint 3";
 
 std::span<const double> flat(const std::vector<Vector3>& vectors)
 {
@@ -52,6 +52,19 @@ std::vector<Isometry> isometries(const std::vector<double>& values)
     return result;
 }
 
+/// Numbers of points and images as bytes: an archive knows no shorter integers.
+std::span<const std::uint8_t> as_bytes(const std::vector<std::uint32_t>& numbers)
+{
+    return {reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(std::uint32_t)};
+}
+
+std::vector<std::uint32_t> numbers(const std::vector<std::uint8_t>& bytes)
+{
+    std::vector<std::uint32_t> result(bytes.size() / sizeof(std::uint32_t));
+    std::copy_n(bytes.begin(), result.size() * sizeof(std::uint32_t), reinterpret_cast<std::uint8_t*>(result.data()));
+    return result;
+}
+
 template <class Value>
 std::vector<std::span<Value>> parts_of(auto& vectors)
 {
@@ -83,6 +96,11 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     archive.put("volume", std::span<const double>(points.volume));
     archive.put("jacobian", std::span<const double>(points.jacobian));
     archive.put("refresh_position", flat(model.refresh_position));
+    const Families::Kept families = model.families.kept();
+    archive.put("family_counts", as_bytes(families.family_counts));
+    archive.put("family_neighbours", as_bytes(families.family_neighbours));
+    archive.put("apart_counts", as_bytes(families.apart_counts));
+    archive.put("apart_neighbours", as_bytes(families.apart_neighbours));
     archive.put("point_state", std::span<const double>(model.point_state));
     archive.put_parts("bond_state", parts_of<const double>(model.bonds.states));
     archive.put("bond_active", std::span<const std::uint8_t>(model.bonds.active));
@@ -161,7 +179,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     at.time_step = reals.at(2);
     at.wall_seconds = reals.at(3);
 
-    // Families and contact candidates are those of the last refresh, made again from its positions.
+    // Families and contact candidates are those of the last refresh; their images are made again from its positions.
     model.isometries.restore(isometries(archive.reals("isometries")));
     enter_stage(at.stage);
     copy_checked(vectors(archive.reals("refresh_position")), points.position, "position");
@@ -172,7 +190,9 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     copy_checked(archive.reals("saturation"), points.saturation, "saturation");
     parts.water = {archive.reals("suction_before"), archive.reals("saturation_before"), archive.reals("suction_after"),
                    archive.reals("saturation_after")};
-    find_first_families(model, parts.force_state);
+    const Families::Kept kept{numbers(archive.bytes("family_counts")), numbers(archive.bytes("family_neighbours")),
+                              numbers(archive.bytes("apart_counts")), numbers(archive.bytes("apart_neighbours"))};
+    find_first_families(model, parts.force_state, &kept);
     const std::vector<Vector3> shifts = vectors(archive.reals("obstacle_shift"));
     for (std::size_t o = 0; o < model.obstacles.size(); ++o)
         model.obstacles[o].shift = shifts.at(o);

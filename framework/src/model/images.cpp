@@ -63,12 +63,19 @@ void IsometryTable::set_generators(std::vector<Isometry> generators)
     }
 }
 
+std::optional<std::uint32_t> IsometryTable::find(const Isometry& isometry) const
+{
+    for (std::uint32_t n = 0; n < isometries_.size(); ++n)
+        if (same(isometries_[n], isometry, 1.0))
+            return n;
+    return std::nullopt;
+}
+
 std::uint32_t IsometryTable::number_of(const Isometry& isometry)
 {
     const auto look_up = [this](const Isometry& wanted) {
-        for (std::uint32_t n = 0; n < isometries_.size(); ++n)
-            if (same(isometries_[n], wanted, 1.0))
-                return n;
+        if (const std::optional<std::uint32_t> known = find(wanted))
+            return *known;
         isometries_.push_back(wanted);
         inverses_.push_back(std::numeric_limits<std::uint32_t>::max());
         return static_cast<std::uint32_t>(isometries_.size() - 1);

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,9 @@ public:
     /// `reach` of the box. New ones get new numbers, together with their inverses.
     /// @throws std::runtime_error when there are more than 4096 of them, as two planes at an odd angle would make.
     std::vector<std::uint32_t> active(const Vector3& lower, const Vector3& upper, double reach);
+
+    /// The number of an isometry, if it has one.
+    std::optional<std::uint32_t> find(const Isometry& isometry) const;
 
     const Isometry& operator[](std::uint32_t number) const { return isometries_[number]; }
     std::uint32_t inverse(std::uint32_t number) const { return inverses_[number]; }

@@ -26,9 +26,23 @@ void Model::allocate()
     free_grain.assign(n, 0);
 }
 
-void Model::find_families()
+void Model::find_families(const Families* before, std::span<const ClosedPair> closed)
 {
-    families = Families::find(points, isometries, horizon);
+    std::vector<double> joining(bodies.size());
+    std::ranges::transform(bodies, joining.begin(),
+                           [this](const Body& body) { return body.joining_distance * spacing; });
+    families = Families::find(points, isometries, {horizon, link_length(spacing, horizon), before, closed, joining});
+    follow_families();
+}
+
+void Model::restore_families(const Families::Kept& kept)
+{
+    families = Families::restore(points, isometries, horizon, kept);
+    follow_families();
+}
+
+void Model::follow_families()
+{
     halos.find(families);
     if (has_sub_horizons)
         sub_horizons.find(points, isometries, families, horizon);

@@ -25,6 +25,9 @@ struct Body {
     double overconsolidation_ratio = 1.0; ///< OCR, for the initial state of the material [-]
     double porosity = 0.0;                ///< phi0 [-]
     bool ground = false;                  ///< do points of another body stand on its smoothed surface?
+    /// Pieces of the body that come nearer than this are one at once; 0 where a contact law holds pieces apart
+    /// [spacings].
+    double joining_distance = 1.0;
 
     /// Rows of a bond: six of stress, then the state variables.
     std::size_t rows() const { return 6 + material->state_variables().size(); }
@@ -166,13 +169,17 @@ struct Model {
     void allocate();
     /// Families, and what follows from them, at the current positions. The states of bonds are not touched; none is
     /// active.
-    void find_families();
+    /// @param before the families until now, null at the start; closed: see FamilyRule
+    void find_families(const Families* before = nullptr, std::span<const ClosedPair> closed = {});
+    /// The same with families that a checkpoint kept.
+    void restore_families(const Families::Kept& kept);
     /// Copies positions, velocities and volumes of points and images to the records.
     void update_records();
     /// Bytes held in points, families and bonds.
     std::size_t memory() const;
 
 private:
+    void follow_families();
     template <class Value>
     HeldBondsOf<Value> held_bonds(std::size_t point, const FamilyView& family, Value* state) const
     {

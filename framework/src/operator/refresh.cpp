@@ -73,11 +73,14 @@ void hand_out_point_variables(Model& model)
 
 } // namespace
 
-void find_first_families(Model& model, const ForceState& force_state)
+void find_first_families(Model& model, const ForceState& force_state, const Families::Kept* kept)
 {
     model.has_sub_horizons = force_state.uses_sub_horizons();
     model.has_shared_bonds = force_state.shares_bonds();
-    model.find_families();
+    if (kept != nullptr)
+        model.restore_families(*kept);
+    else
+        model.find_families();
     model.bonds.states.resize(model.halos.blocks());
     model.bonds.first.resize(model.size());
 #pragma omp parallel for schedule(dynamic, 1)
@@ -240,7 +243,7 @@ void hand_over(Model& model, std::size_t point, const Families& families_before,
 
 } // namespace
 
-void refresh_families(Model& model, const ForceState& force_state)
+void refresh_families(Model& model, const ForceState& force_state, std::span<const ClosedPair> closed)
 {
     model.update_records();
     std::vector<double> states = model.point_state;
@@ -248,7 +251,7 @@ void refresh_families(Model& model, const ForceState& force_state)
     model.point_state.swap(states);
     const Families families_before = std::exchange(model.families, {});
     const ActiveBonds active_before = std::exchange(model.bonds.active, {});
-    model.find_families();
+    model.find_families(&families_before, closed);
 #pragma omp parallel
     {
         BlockBefore before;

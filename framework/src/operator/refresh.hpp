@@ -11,16 +11,18 @@ namespace periporo {
 
 /// Families of a model that has none yet, with what the force state asks for; all bonds start with zero stress and
 /// initial state variables.
-void find_first_families(Model& model, const ForceState& force_state);
+/// @param kept the families that a checkpoint kept, null: those of the positions as they are
+void find_first_families(Model& model, const ForceState& force_state, const Families::Kept* kept = nullptr);
 
-/// Families from the current positions. A bond that was active and is still there keeps its state; any other bond
+/// Families from the current positions, and those until now (FamilyRule). A bond that was active and is still there keeps its state; any other bond
 /// (i,j) takes the mean of the point states of i and j, a point state being the share-weighted mean over the active
 /// bonds of the point. A point without active bonds remembers its state variables and has zero stress.
 ///
 /// Variables of the point (StateVariable::of_point) are evened out: the point's value has moved by the mean change of
 /// its bonds, and all its bonds go on from it (begin from the mean of both ends where the force state is symmetric; the
 /// points' own values do not mix, so nothing diffuses).
-void refresh_families(Model& model, const ForceState& force_state);
+/// @param closed pairs of points apart that have closed, sorted
+void refresh_families(Model& model, const ForceState& force_state, std::span<const ClosedPair> closed = {});
 
 /// Sets the variables of the points to the mean of their bonds and evens these out: after they were set bond by bond.
 void collect_point_variables(Model& model, const ForceState& force_state);

@@ -230,9 +230,12 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
     }
     for (const ContactDescription& contact : description.contacts)
         built.contacts.push_back(assignment_of(model, contact, registry));
-    for (const ContactAssignment& contact : built.contacts)
+    for (const ContactAssignment& contact : built.contacts) {
         if (contact.surface_body)
             model.bodies[*contact.surface_body].ground = true;
+        if (within_one_body(contact))
+            model.bodies[contact.bodies[0]].joining_distance = 0.0;
+    }
     return built;
 }
 

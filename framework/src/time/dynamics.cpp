@@ -19,8 +19,14 @@ Dynamics::Dynamics(Model& model, const ForceState& force_state, ContactForces& c
 void Dynamics::refresh()
 {
     times_.time(Phase::refresh, [&] {
-        refresh_families(model_, force_state_);
+        model_.update_records();
+        const std::vector<ClosedPair> closed = contact_.closed_pairs(model_);
+        const double before = closed.empty() ? 0.0 : contact_.energy_within_bodies(model_);
+        refresh_families(model_, force_state_, closed);
         contact_.find_candidates(model_, settings_.skin);
+        // Bonds take the place of contacts that close, and what these stored is dissipated.
+        if (!closed.empty())
+            state_.ledger.collision += before - contact_.energy_within_bodies(model_);
     });
     ++state_.refreshes;
 }

@@ -18,6 +18,7 @@ namespace periporo {
 class J2Plasticity {
 public:
     static constexpr std::size_t state_count = 2;
+    static constexpr bool closes = false; // a solid
     enum StateIndex : std::size_t { hardening_strain = 0, shear_strain = 1 };
 
     static std::vector<Parameter> parameters()

@@ -15,6 +15,7 @@ namespace periporo {
 class LinearElastic {
 public:
     static constexpr std::size_t state_count = 0;
+    static constexpr bool closes = false; // a solid
 
     static std::vector<Parameter> parameters()
     {

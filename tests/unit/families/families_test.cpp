@@ -25,6 +25,21 @@ Model model_of(const std::vector<Vector3>& positions, double reach = horizon)
     return model;
 }
 
+/// By looking at all chains: are two points joined by three links at most, inside both horizons?
+bool joined(const std::vector<Vector3>& x, std::size_t i, std::size_t j, double reach)
+{
+    const auto near = [&](std::size_t a, std::size_t b, double limit) { return (x[a] - x[b]).norm() <= limit; };
+    const double link = link_length(dx, reach);
+    if (!near(i, j, reach))
+        return false;
+    const auto linked = [&](std::size_t a, std::size_t b) { return a == b || near(a, b, link); };
+    for (std::size_t a = 0; a < x.size(); ++a)
+        for (std::size_t b = 0; linked(i, a) && near(a, j, reach) && b < x.size(); ++b)
+            if (linked(a, b) && linked(b, j) && near(b, i, reach))
+                return true;
+    return false;
+}
+
 /// How often each bond's neighbour counts in each sub-horizon, by the changes from one sum to the next.
 std::vector<std::vector<int>> membership(const SubHorizonView& view)
 {
@@ -86,7 +101,7 @@ TEST_CASE("families and sub-horizons of a random cloud are those of the definiti
         for (std::size_t i = 0; i < x.size(); ++i) {
             std::set<std::uint32_t> expected;
             for (std::uint32_t j = 0; j < x.size(); ++j)
-                if (j != i && (x[j] - x[i]).norm() <= reach)
+                if (j != i && joined(x, i, j, reach))
                     expected.insert(j);
             const FamilyView family = model.families[i];
             largest = std::max(largest, family.count);
@@ -135,7 +150,7 @@ TEST_CASE("every bond has an opposite, from the neighbour to the point, images i
 {
     Model model = from_positions(jittered(lattice(5, 5, 5, dx), dx, 0.2), dx);
     model.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(1, 0.0)});
-    const Families families = Families::find(model.points, model.isometries, horizon);
+    const Families families = Families::find(model.points, model.isometries, {horizon, link_length(dx, horizon)});
     std::size_t to_images = 0;
     for (std::size_t i = 0; i < families.points(); ++i) {
         const FamilyView family = families[i];
@@ -160,7 +175,7 @@ TEST_CASE("points of different bodies are never of one family")
     model.bodies.push_back(model.bodies.front());
     for (std::size_t i = 0; i < model.size(); ++i)
         model.points.body[i] = model.points.position[i].z() > 2.0 * dx ? 1 : 0;
-    const Families families = Families::find(model.points, model.isometries, horizon);
+    const Families families = Families::find(model.points, model.isometries, {horizon, link_length(dx, horizon)});
     for (std::size_t i = 0; i < families.points(); ++i)
         for (std::size_t b = 0; b < families[i].count; ++b)
             CHECK(model.points.body[families[i].neighbours[b]] == model.points.body[i]);
