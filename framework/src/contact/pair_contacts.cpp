@@ -275,12 +275,16 @@ std::vector<ClosedPair> ContactForces::closed_pairs(const Model& model) const
                 if (i > p || (i == p && model.families.isometry(c) > opposite))
                     continue; // seen from the other end
                 const Vector3 relative = model.records[i].v() - model.records[c].v();
-                const ContactPair pair{(model.records[i].x() - model.records[c].x()).norm(), 0.0,
-                                       model.points.volume[i],                               model.points.volume[p],
-                                       model.points.mass[i],                                 model.points.mass[p]};
+                const ContactPair pair{(model.records[i].x() - model.records[c].x()).norm(),
+                                       0.0,
+                                       model.points.volume[i],
+                                       model.points.volume[p],
+                                       model.points.mass[i],
+                                       model.points.mass[p]};
                 ContactResponse response;
                 at.law->evaluate({&pair, 1}, {&response, 1});
-                if (!(response.force > 0.0 && 0.5 * reduced_mass(pair) * relative.squaredNorm() <= calm * response.energy))
+                if (!(response.force > 0.0 &&
+                      0.5 * reduced_mass(pair) * relative.squaredNorm() <= calm * response.energy))
                     continue;
                 closed.push_back({i, model.families.key(c)});
                 closed.push_back({p, static_cast<std::uint64_t>(opposite) << 32 | i});

@@ -110,9 +110,10 @@ void Families::check_sizes(const Points& points) const
         return;
     const auto i = static_cast<std::size_t>(crowded - count_.begin());
     const Vector3& x = points.position[i];
-    throw std::runtime_error(fmt::format("point {} at ({:.5g}, {:.5g}, {:.5g}) m has {} points within its horizon, more "
-                                         "than {}: points lie on top of each other, or the horizon is too large",
-                                         points.id[i], x.x(), x.y(), x.z(), *crowded, largest_family));
+    throw std::runtime_error(
+        fmt::format("point {} at ({:.5g}, {:.5g}, {:.5g}) m has {} points within its horizon, more "
+                    "than {}: points lie on top of each other, or the horizon is too large",
+                    points.id[i], x.x(), x.y(), x.z(), *crowded, largest_family));
 }
 
 void Families::lay_out(const Found& found)

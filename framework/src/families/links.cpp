@@ -110,7 +110,8 @@ void Links::find_links_of_image(std::size_t image)
         const auto found = std::lower_bound(begin, end, parent(c),
                                             [](const Image& i, std::uint32_t wanted) { return i.parent < wanted; });
         if (found != end && found->parent == parent(c)) // others lie beyond all horizons
-            links[count++] = static_cast<std::uint32_t>(points_.size() + static_cast<std::size_t>(found - images_.begin()));
+            links[count++] =
+                static_cast<std::uint32_t>(points_.size() + static_cast<std::size_t>(found - images_.begin()));
     }
     count_[record] = count;
 }
@@ -141,8 +142,9 @@ bool ChainSearch::reached_by_three(const Links& links, std::span<const Vector3> 
 {
     return std::ranges::any_of(links[neighbour], [&](std::uint32_t b) {
         return links_to_[b] == two_links && std::ranges::any_of(links[b], [&](std::uint32_t a) {
-            return links_to_[a] == one_link && (positions[a] - positions[neighbour]).squaredNorm() <= horizon_squared;
-        });
+                   return links_to_[a] == one_link &&
+                          (positions[a] - positions[neighbour]).squaredNorm() <= horizon_squared;
+               });
     });
 }
 

@@ -82,13 +82,13 @@ private:
     const IsometryTable& isometries_;
     const FamilyRule& rule_;
     std::vector<std::uint8_t> had_images_; // for each isometry: in the families before
-    std::vector<std::size_t> first_; // of each record
+    std::vector<std::size_t> first_;       // of each record
     std::vector<std::uint32_t> count_;
     std::vector<std::uint32_t> linked_;
-    std::vector<std::uint32_t> place_;       // of an isometry in use, by its number; `none` for others
-    std::vector<std::size_t> first_image_;   // of the isometries in use, and the end of the last
-    std::vector<std::uint32_t> products_;    // of two isometries in use: their place, or `none`
-    std::size_t in_use_ = 0;                 // isometries, the identity among them
+    std::vector<std::uint32_t> place_;     // of an isometry in use, by its number; `none` for others
+    std::vector<std::size_t> first_image_; // of the isometries in use, and the end of the last
+    std::vector<std::uint32_t> products_;  // of two isometries in use: their place, or `none`
+    std::size_t in_use_ = 0;               // isometries, the identity among them
 };
 
 /// Finds which neighbours within the horizon of a point are joined to it by a chain of at most three links, each point

@@ -14,9 +14,10 @@ namespace periporo {
 /// @param kept the families that a checkpoint kept, null: those of the positions as they are
 void find_first_families(Model& model, const ForceState& force_state, const Families::Kept* kept = nullptr);
 
-/// Families from the current positions, and those until now (FamilyRule). A bond that was active and is still there keeps its state; any other bond
-/// (i,j) takes the mean of the point states of i and j, a point state being the share-weighted mean over the active
-/// bonds of the point. A point without active bonds remembers its state variables and has zero stress.
+/// Families from the current positions, and those until now (FamilyRule). A bond that was active and is still there
+/// keeps its state; any other bond (i,j) takes the mean of the point states of i and j, a point state being the
+/// share-weighted mean over the active bonds of the point. A point without active bonds remembers its state variables
+/// and has zero stress.
 ///
 /// Variables of the point (StateVariable::of_point) are evened out: the point's value has moved by the mean change of
 /// its bonds, and all its bonds go on from it (begin from the mean of both ends where the force state is symmetric; the
