@@ -27,11 +27,11 @@ struct ClosedPair {
     friend auto operator<=>(const ClosedPair&, const ClosedPair&) = default;
 };
 
-/// Greatest length of a link [m]: 1.6 spacings, so that the neighbours (1,1,0) of a lattice are linked and soil that
+/// Greatest length of a link [m]: 1.8 spacings, so that the neighbours (1,1,1) of a lattice are linked and soil that
 /// flows stays whole, or 0.53 horizons where that is more, so that three links reach every neighbour of a lattice.
 inline double link_length(double spacing, double horizon)
 {
-    return std::min(std::max(1.6 * spacing, 0.53 * horizon), horizon);
+    return std::min(std::max(1.8 * spacing, 0.53 * horizon), horizon);
 }
 
 /// Which points within a horizon make a family.

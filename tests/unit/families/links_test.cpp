@@ -73,10 +73,10 @@ TEST_CASE("every neighbour in an intact lattice is of the family, at every horiz
 
 TEST_CASE("at the start pieces farther apart than a link are two, whatever the horizon sees")
 {
-    Model one = blocks(1.5);
+    Model one = blocks(1.7);
     one.find_families();
     CHECK(bonds_across(one) > 0);
-    Model two = blocks(1.7); // a link is 1.6 spacings long
+    Model two = blocks(1.9); // a link is 1.8 spacings long
     two.find_families();
     CHECK(bonds_across(two) == 0);
     std::size_t apart = 0;
@@ -111,10 +111,10 @@ TEST_CASE("pieces come apart at the length of a link, and what is apart does not
 {
     Model model = blocks(1.0);
     model.find_families();
-    move_apart(model, 1.55);
+    move_apart(model, 1.75);
     find_again(model);
     CHECK(bonds_across(model) > 0);
-    move_apart(model, 1.65);
+    move_apart(model, 1.85);
     find_again(model);
     CHECK(bonds_across(model) == 0);
     move_apart(model, 0.9);
@@ -124,7 +124,7 @@ TEST_CASE("pieces come apart at the length of a link, and what is apart does not
 
 TEST_CASE("pieces of a body without a contact law of its own join within one spacing")
 {
-    Model model = blocks(1.8);
+    Model model = blocks(1.9);
     model.bodies.front().joining_distance = 1.0;
     model.find_families();
     move_apart(model, 1.05);
@@ -142,7 +142,7 @@ TEST_CASE("families of a quarter between symmetry planes are those of the whole,
         std::vector<Vector3> x = jittered(lattice(3, 3, 3, dx), dx, 0.1);
         const std::size_t lower = x.size();
         for (std::size_t i = 0; i < lower; ++i)
-            x.push_back(x[i] + Vector3(0.0, 0.0, 3.9 * dx));
+            x.push_back(x[i] + Vector3(0.0, 0.0, 4.2 * dx));
         return x;
     }();
     Model quarter = from_positions(whole_positions, dx);

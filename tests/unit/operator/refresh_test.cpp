@@ -246,7 +246,8 @@ TEST_CASE("a point whose only sound bond outgrew the horizon is a free grain and
     for (const std::string state : {"energy_conjugate", "energy_conjugate_mean"}) {
         CAPTURE(state);
         const auto force = make_force_state(state, Influence::by_name("linear", delta));
-        Model model = from_positions(positions, dx);
+        const double spacing = 1.7 * dx; // so that all five are linked
+        Model model = from_positions(positions, spacing, delta / spacing);
         model.bodies[0].material = std::make_shared<LawMaterial<HookeWithMemory>>(Parameters{});
         model.allocate();
         find_first_families(model, *force);

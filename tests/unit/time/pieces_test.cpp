@@ -164,7 +164,7 @@ TEST_CASE("blocks of cohesionless soil meet at the same distance and part no fas
 
 TEST_CASE("a block of soil that falls on its own lower part comes to rest on it, and its weight arrives at the floor")
 {
-    Model model = two_blocks(1.8 * dx, cohesionless_soil());
+    Model model = two_blocks(1.9 * dx, cohesionless_soil());
     model.gravity = Vector3(0.0, 0.0, -g);
     // a wide column: symmetry planes on all four sides
     model.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(0, 4.0 * dx),
