@@ -23,6 +23,9 @@ struct ContactPair {
     double volume_b;       ///< of the other point, or what moves with a deformable surface; 0 for a rigid one
     double mass_a;         ///< [kg]
     double mass_b;         ///< 0 for a rigid surface
+    /// Leapfrog step in which the force acts while `approach_speed` is that of the middle of the last one; 0 when the
+    /// speed is that of the instant [s]
+    double time_step = 0.0;
 };
 
 /// The mass that moves against the spring of a contact: m_a m_b/(m_a + m_b), or m_a at a rigid surface [kg].
@@ -62,16 +65,45 @@ inline double damping_ratio(double restitution)
     return 0.5 * (low + high);
 }
 
+/// The dashpot c' that gives an oscillator in leapfrog steps the damping ratio, and so the restitution, of a dashpot c
+/// in continuous time; c itself without a step [N s/m]. The steps take the force k x + c' v with v of the last
+/// mid-step, and
+///
+///     x(n+1) - (2 - k dt^2/m - c' dt/m) x(n) + (1 - c' dt/m) x(n-1) = 0
+///
+/// has the solution of a damped oscillation with the phase theta a step, where 1 - c' dt/m = exp(-2 b), b = zeta theta.
+/// From the middle coefficient k dt^2/m = exp(-b) theta^2 up to a relative theta^2/12, so that b solves b = beta
+/// exp(b/2) with beta = c dt/(2 m), to third order b = beta + beta^2/2 + 3 beta^3/8. A contact at rest keeps k x.
+///
+/// A pair that touched within the last step, with the overlap o now, has not had its dashpot yet: the impulse of c from
+/// the first touch on is the integral of c do, c o/(power + 1), and that of the next half step makes a factor 1/(1 +
+/// b).
+/// @param damping c at the present overlap [N s/m]
+/// @param power of the overlap that c grows with [-]
+inline double dashpot_in_steps(double damping, double overlap, const ContactPair& pair, double power = 0.0)
+{
+    if (!(pair.time_step > 0.0))
+        return damping;
+    const double mass = reduced_mass(pair);
+    const double beta = 0.5 * damping * pair.time_step / mass;
+    const double b = beta * (1.0 + beta * (0.5 + 0.375 * beta));
+    const double travelled = pair.approach_speed * pair.time_step;
+    constexpr double rounding = 1e-6; // a touch at the end of the step before is one of this step
+    const bool touched_now = travelled > 0.0 && overlap <= (1.0 + rounding) * travelled;
+    const double left = touched_now ? std::max(0.0, 1.0 - 2.0 * b * overlap / ((power + 1.0) * travelled)) / (1.0 + b)
+                                    : std::exp(-2.0 * b); // of the speed after a step
+    return (1.0 - left) * mass / pair.time_step;
+}
+
 /// A linear spring k under an overlap, with a dashpot 2 zeta (k m)^(1/2) beside it; it never pulls, so that a strongly
 /// damped pair parts before its overlap is gone. Nothing without overlap.
-/// @param mass the reduced mass of the pair, the mass of the point at a rigid surface [kg]
-inline ContactResponse spring_and_dashpot(double overlap, double stiffness, double ratio, double mass,
-                                          double approach_speed)
+inline ContactResponse spring_and_dashpot(double overlap, double stiffness, double ratio, const ContactPair& pair)
 {
     if (overlap <= 0.0)
         return {};
     const double spring = stiffness * overlap;
-    const double force = std::max(0.0, spring + 2.0 * ratio * std::sqrt(stiffness * mass) * approach_speed);
+    const double dashpot = dashpot_in_steps(2.0 * ratio * std::sqrt(stiffness * reduced_mass(pair)), overlap, pair);
+    const double force = std::max(0.0, spring + dashpot * pair.approach_speed);
     return {force, stiffness, 0.5 * spring * overlap, force - spring};
 }
 

@@ -6,8 +6,6 @@
 
 #include <periporo/contact.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <span>
 #include <vector>
 
@@ -15,7 +13,8 @@ namespace lab {
 
 using namespace periporo;
 
-/// Normal force k o + 2 zeta sqrt(k m) do/dt for an overlap o > 0 and the reduced mass m of the pair. It never pulls.
+/// Normal force k o + 2 zeta sqrt(k m) do/dt for an overlap o > 0 and the reduced mass m of the pair, that of the point
+/// at a rigid surface. It never pulls.
 class MyPlugin : public periporo::Contact {
 public:
     /// What a case gives. Values arrive checked and in SI units; `periporo inspect my_plugin` prints this list.
@@ -56,14 +55,7 @@ public:
 private:
     ContactResponse response(const ContactPair& pair) const
     {
-        const double overlap = cutoff_ - pair.distance;
-        if (overlap <= 0.0)
-            return {};
-        const double mass = pair.mass_a * pair.mass_b / (pair.mass_a + pair.mass_b);
-        const double spring = stiffness_ * overlap;
-        const double dashpot = 2.0 * damping_ratio_ * std::sqrt(stiffness_ * mass) * pair.approach_speed;
-        const double force = std::max(0.0, spring + dashpot);
-        return {force, stiffness_, 0.5 * spring * overlap, force - spring};
+        return spring_and_dashpot(cutoff_ - pair.distance, stiffness_, damping_ratio_, pair);
     }
 
     double stiffness_;     // [N/m]

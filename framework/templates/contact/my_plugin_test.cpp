@@ -73,6 +73,15 @@ TEST_CASE("without damping the force is the slope of the stored energy, and the 
     CHECK(here.damping_force == 0.0);
 }
 
+TEST_CASE("the dashpot acts on a rigid surface too, with the mass of the point")
+{
+    const lab::MyPlugin contact = law(0.5);
+    const ContactPair pair{0.9 * cutoff, 0.2, 1e-6, 0.0, mass, 0.0};
+    ContactResponse response;
+    contact.evaluate({&pair, 1}, {&response, 1});
+    CHECK(response.damping_force == doctest::Approx(2.0 * 0.5 * std::sqrt(stiffness * mass) * 0.2).epsilon(1e-12));
+}
+
 TEST_CASE("a contact never pulls, however fast the points part")
 {
     CHECK(response(law(0.5), 0.99 * cutoff, -100.0).force == 0.0);

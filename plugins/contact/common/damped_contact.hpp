@@ -69,8 +69,7 @@ protected:
     /// A spring k [N/m] below the distance of first touch with the dashpot of the restitution beside it.
     ContactResponse linear_reaction(const ContactPair& pair, double stiffness) const
     {
-        return spring_and_dashpot(touch_ - pair.distance, stiffness, damping_ratio_, reduced_mass(pair),
-                                  pair.approach_speed);
+        return spring_and_dashpot(touch_ - pair.distance, stiffness, damping_ratio_, pair);
     }
 
 private:

@@ -59,7 +59,8 @@ public:
         const double elastic = bend + slope * straight;
         const double energy = 0.4 * bend * curved + (bend + 0.5 * slope * straight) * straight;
         const double dashpot = std::sqrt(5.0) * ratio() * std::sqrt(reduced_mass(pair) * k * root);
-        const double force = std::max(0.0, elastic + dashpot * pair.approach_speed);
+        const double force =
+            std::max(0.0, elastic + dashpot_in_steps(dashpot, overlap, pair, 0.25) * pair.approach_speed);
         return {force, slope, energy, force - elastic};
     }
 
