@@ -225,6 +225,7 @@ CaseDescription build_description(const CheckedTable& root)
     const Parameters& run = root.one("run").own;
     description.checkpoint_every = run.real("checkpoint_every");
     description.history_every = run.real("history_every");
+    description.energy_error_limit = run.real("energy_error_limit");
     for (const std::string& path : optional_texts(root.one("plugins").own, "paths"))
         description.plugin_paths.emplace_back(path);
     return description;

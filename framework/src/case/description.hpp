@@ -188,8 +188,9 @@ struct CaseDescription {
     std::vector<StageDescription> stages;
     std::vector<OutputDescription> outputs;
     std::optional<ComparisonDescription> comparison;
-    double checkpoint_every = 60.0; ///< wall-clock seconds between checkpoints [s]
-    double history_every = 1e-3;    ///< simulated time between history rows [s]
+    double checkpoint_every = 60.0;  ///< wall-clock seconds between checkpoints [s]
+    double history_every = 1e-3;     ///< simulated time between history rows [s]
+    double energy_error_limit = 0.1; ///< over the energy turned over, beyond which the run stops [-]
     std::vector<std::filesystem::path> plugin_paths;
     std::string resolved; ///< the whole case as TOML, reproducing the run by itself
     std::vector<std::string> warnings;

@@ -40,7 +40,8 @@ TableRules time_rules()
                  .above(0.0)
                  .at_most(1.0)
                  .by_default(0.85),
-             Parameter::real("step", dimension::time, "Fixed time step instead of the computed one")
+             Parameter::real("step", dimension::time,
+                             "Fixed time step instead of the computed one; refused when it is not stable")
                  .above(0.0)
                  .optional()}};
 }
@@ -334,7 +335,11 @@ TableRules run_rules()
                  .by_default(60.0),
              Parameter::real("history_every", dimension::time, "Simulated time between rows of the history")
                  .above(0.0)
-                 .by_default(1e-3)}};
+                 .by_default(1e-3),
+             Parameter::real("energy_error_limit", dimension::none,
+                             "Energy error, over the energy turned over, beyond which a run stops")
+                 .above(0.0)
+                 .by_default(0.1)}};
 }
 
 TableRules root_rules()

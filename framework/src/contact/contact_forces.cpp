@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t block = 128;
 constexpr double bearing_overlap = 0.1; ///< overlap over reach up to which a point counts as resting on a surface
 /// How far points and obstacles move until points near rigid surfaces are sought anew, in spacings.
-constexpr double surface_skin = 0.5;
+constexpr double surface_skin = 0.4;
 
 } // namespace
 
@@ -69,7 +69,7 @@ void ContactForces::find_near_surfaces(const Model& model)
         if (!at_rigid_surface(assignment))
             continue;
         const RigidContactSurface surface(model, assignment);
-        const double reach = assignment.law->cutoff() + surface_skin * model.spacing;
+        const double reach = assignment.law->cutoff() + (surface_margin + surface_skin) * model.spacing;
         std::vector<std::uint8_t> near(model.size(), 0);
 #pragma omp parallel for schedule(dynamic, 256)
         for (std::size_t i = 0; i < model.size(); ++i)
@@ -174,10 +174,13 @@ void ContactForces::add_surface(const Model& model, std::size_t assignment, std:
         if (distance >= own_reach)
             continue;
         note_overlap(assignment, (own_reach - distance) / reach);
-        pairs[count] = {
-            distance + (reach - own_reach), -approach_factor_ * (model.points.velocity[i] - velocity).dot(normal),
-            model.points.volume[i],         0.0,
-            model.points.mass[i],           0.0};
+        pairs[count] = {distance + (reach - own_reach),
+                        -approach_factor_ * (model.points.velocity[i] - velocity).dot(normal),
+                        model.points.volume[i],
+                        0.0,
+                        model.points.mass[i],
+                        0.0,
+                        law_step_};
         touching[count] = i;
         normals[count] = normal;
         if (++count == block)
@@ -189,6 +192,7 @@ void ContactForces::add_surface(const Model& model, std::size_t assignment, std:
 void ContactForces::add_reactions(const Model& model, double time_step, Approach approach, std::vector<Vector3>& force)
 {
     approach_factor_ = approach == Approach::real ? 1.0 : 0.0;
+    law_step_ = approach_factor_ * time_step;
     friction_.assign(model.size(), Vector3::Zero());
     point_energy_.assign(model.size(), 0.0);
     damping_.assign(model.size(), Vector3::Zero());
@@ -227,34 +231,6 @@ void ContactForces::add_surface_friction(const Model& model, double time_step, s
         obstacle_reactions_[contact.obstacle] += friction;
         obstacle_power_.reaction += friction.dot(contact.velocity);
         obstacle_power_.friction += friction.dot(contact.velocity);
-    }
-}
-
-const std::vector<ContactBound>& ContactForces::bounds(const Model& model)
-{
-    bounds_.assign(model.size(), {});
-    for (std::size_t a = 0; a < assignments_.size(); ++a) {
-        if (at_rigid_surface(assignments_[a]))
-            bound_surface(model, a);
-        else if (assignments_[a].surface_body)
-            bound_supported(model, a);
-        else
-            bound_pairs(model, a);
-    }
-    return bounds_;
-}
-
-void ContactForces::bound_surface(const Model& model, std::size_t assignment)
-{
-    const ContactAssignment& at = assignments_[assignment];
-    const RigidContactSurface surface(model, at);
-    if (!surface.present())
-        return;
-    for (const std::uint32_t i : near_surface_[assignment]) {
-        Vector3 normal;
-        surface.distance(model.points.position[i], normal);
-        const double mass = model.points.mass[i];
-        add(bounds_[i], normal, slopes(*at.law, {0.0, 0.0, model.points.volume[i], 0.0, mass, 0.0}), 1.0 / mass);
     }
 }
 

@@ -40,6 +40,7 @@ struct ObstaclePower {
 struct ContactBound {
     Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(); ///< [1/s2]
     Eigen::Matrix3d damping = Eigen::Matrix3d::Zero();   ///< [1/s]
+    double sharpest = 0.0; ///< square of the largest angular frequency of one contact alone [1/s2]
 };
 
 /// Finds contacts and adds their forces. Each point sums its own contacts, both directions of a pair are evaluated with
@@ -109,8 +110,14 @@ public:
     void set_grain_reach(std::vector<double> reach) { grain_reach_ = std::move(reach); }
 
     /// For the stable step, of every point: every law at full overlap, with the contacts that there are at the present
-    /// positions or soon may be. Records must be current, and candidates found.
+    /// positions and those whose gap is below a margin. Records must be current, and candidates found.
     const std::vector<ContactBound>& bounds(const Model& model);
+    /// Largest angular frequency of one contact alone in the last bounds() [1/s]
+    double sharpest() const { return sharpest_; }
+    /// Is there a contact alone of more than `frequency` [1/s], or one that begins unless it is stopped within a few
+    /// steps? Its gap is below two thirds of the margin of bounds(), so that bounds() finds it. To be called before a
+    /// step, which is too long for such a contact unless bounds() has counted it.
+    bool is_sharper(const Model& model, double frequency);
 
 private:
     struct SurfaceContact {
@@ -145,9 +152,15 @@ private:
     void press(const Model& model, std::size_t assignment, const SupportedPoint& supported, double time_step,
                std::vector<Vector3>& force);
     void note_overlap(std::size_t assignment, double overlap);
-    void bound_surface(const Model& model, std::size_t assignment);
-    void bound_supported(const Model& model, std::size_t assignment);
-    void bound_pairs(const Model& model, std::size_t assignment);
+    /// Sets bounds_ and sharpest_ by the contacts of some assignments whose gap is below a part of the margin.
+    template <class Takes>
+    void find_bounds(const Model& model, double part_of_margin, const Takes& takes);
+    /// @param margin gap below which a contact counts [m]
+    void bound_surface(const Model& model, std::size_t assignment, double margin);
+    void bound_supported(const Model& model, std::size_t assignment, double margin);
+    void bound_pairs(const Model& model, std::size_t assignment, double margin);
+    /// Largest angular frequency that a contact of an assignment may have, of points as they are [1/s]
+    double sharpest_possible(const Model& model, std::size_t assignment) const;
 
     void add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
     /// Are there points that for_each_touching() would visit? Finds them.
@@ -199,6 +212,8 @@ private:
     std::vector<Vector3> friction_;
     std::vector<SurfaceContact> surface_contacts_;
     std::vector<ContactBound> bounds_;
+    double sharpest_ = 0.0;
+    std::vector<double> possible_; ///< for each assignment sharpest_possible() at the last bounds(), or none [1/s]
     std::vector<double> point_energy_;
     std::vector<Vector3> damping_;
     /// A grain that comes loose among others takes the room it finds: its reach starts at the distance of its nearest
@@ -209,6 +224,7 @@ private:
     std::vector<double> grain_reach_;
     double energy_ = 0.0;
     double approach_factor_ = 1.0; ///< 0 for Approach::none
+    double law_step_ = 0.0;        ///< that the laws are told, see ContactPair::time_step [s]
 };
 
 } // namespace periporo

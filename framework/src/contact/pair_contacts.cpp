@@ -17,12 +17,6 @@ namespace periporo {
 namespace {
 
 constexpr std::size_t block = 128;
-/// Distance up to which two points count in the estimate of the largest frequency, over that at which they touch: they
-/// may do so before the next estimate.
-constexpr double about_to_touch = 1.1;
-/// Of k/m, for the largest frequency of points in contact: that of a cubic lattice. Grains that come loose until the
-/// next estimate are not seen yet.
-constexpr double fewest_partners = 4.0;
 
 /// Around the points and images of a body, `reach` wider on all sides.
 Bounds box_of(const Model& model, std::uint32_t body, double reach)
@@ -50,8 +44,8 @@ void ContactForces::find_pairs(const Model& model, std::size_t assignment, doubl
 {
     const ContactAssignment& at = assignments_[assignment];
     const std::size_t n = model.size();
-    // Images were made within the horizon; a cut-off is shorter than that.
-    const double reach = at.law->cutoff() + slack;
+    // Images were made within the horizon; a cut-off is shorter than that. The margin is that of bounds().
+    const double reach = at.law->cutoff() + slack + pair_margin * model.spacing;
     // Only what lies in the box of the other body, widened by the reach, can touch it.
     std::array<Bounds, 2> boxes;
     for (std::size_t b = 0; b < 2; ++b)
@@ -88,7 +82,7 @@ void ContactForces::find_pairs(const Model& model, std::size_t assignment, doubl
 void ContactForces::find_pairs_apart(const Model& model, std::size_t assignment, double slack)
 {
     const ContactAssignment& at = assignments_[assignment];
-    const double reach = at.law->cutoff() + slack;
+    const double reach = at.law->cutoff() + slack + pair_margin * model.spacing;
     Candidates& candidates = candidates_[assignment];
     candidates.first.assign(model.size() + 1, 0);
     for (std::uint32_t i = 0; i < model.size(); ++i) {
@@ -148,7 +142,8 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
                         points.volume[point],
                         points.volume[p],
                         points.mass[point],
-                        points.mass[p]};
+                        points.mass[p],
+                        law_step_};
         normals[count] = normal;
         slips[count] = relative - opening * normal;
         crowds[count] = std::max(contacts_of_[point], contacts_of_[p]);
@@ -312,7 +307,7 @@ double ContactForces::energy_within_bodies(const Model& model)
     return energy;
 }
 
-void ContactForces::bound_pairs(const Model& model, std::size_t assignment)
+void ContactForces::bound_pairs(const Model& model, std::size_t assignment, double margin)
 {
     // (u_i - u_j) . n is, squared, at most 2 (u_i . n)^2 + 2 (u_j . n)^2. On a cubic and a face-centred lattice the
     // largest eigenvalue of the blocks, 4 and 8 k/m, is that of the contacts themselves.
@@ -325,10 +320,11 @@ void ContactForces::bound_pairs(const Model& model, std::size_t assignment)
             const std::uint32_t p = model.families.parent(c);
             const Vector3 apart = model.records[i].x() - model.records[c].x();
             const double distance = apart.norm();
-            if (distance > 0.0 && distance < about_to_touch * reach(p))
-                add(bounds_[i], apart / distance,
-                    slopes(law, {0.0, 0.0, model.points.volume[i], model.points.volume[p], mass, model.points.mass[p]}),
-                    2.0 / mass);
+            if (!(distance > 0.0 && distance < reach(p) + margin))
+                continue;
+            const ContactPair pair{
+                0.0, 0.0, model.points.volume[i], model.points.volume[p], mass, model.points.mass[p]};
+            add(bounds_[i], apart / distance, pair, slopes(law, pair), 2.0 / mass);
         }
     });
 }

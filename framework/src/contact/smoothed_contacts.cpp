@@ -11,10 +11,6 @@
 namespace periporo {
 namespace {
 
-/// Distance up to which a point counts in the estimate of the largest frequency, over the reach of the law: it may
-/// touch before the next estimate.
-constexpr double about_to_touch = 1.75;
-
 /// A force on a point or on an image, as a force on the point that it stands for.
 void give(const Model& model, std::uint32_t record, const Vector3& force, std::vector<Vector3>& forces)
 {
@@ -69,7 +65,7 @@ void ContactForces::press(const Model& model, std::size_t assignment, const Supp
     const Vector3 relative = model.records[i].v() - surface_velocity;
     const double opening = relative.dot(support.normal);
     const ContactPair pair{support.distance, -approach_factor_ * opening, points.volume[i], below.volume,
-                           points.mass[i],   1.0 / below.mobility};
+                           points.mass[i],   1.0 / below.mobility,        law_step_};
     ContactResponse response;
     law.evaluate({&pair, 1}, {&response, 1});
     note_overlap(assignment, (law.cutoff() - support.distance) / law.cutoff());
@@ -103,26 +99,26 @@ void ContactForces::add_smoothed(const Model& model, std::size_t assignment, dou
         press(model, assignment, supported_[s], time_step, force);
 }
 
-void ContactForces::bound_supported(const Model& model, std::size_t assignment)
+void ContactForces::bound_supported(const Model& model, std::size_t assignment, double margin)
 {
     // (u_i - sum w_p u_p) . n is, squared, at most 2 (u_i . n)^2 + 2 sum |w| sum |w_p| (u_p . n)^2. What the surface is
     // to a point that stands on it alone is never lighter than what it is in a crowd, and no dashpot is weaker there.
     const Contact& law = *assignments_[assignment].law;
-    find_supported_points(model, assignment, about_to_touch * law.cutoff());
+    find_supported_points(model, assignment, law.cutoff() + margin);
     for (std::size_t s = 0; s < supported_count_; ++s) {
         const auto& [i, support] = supported_[s];
         const double mass = model.points.mass[i];
         const Carrier alone = carrier(model, support, {});
-        const ContactSlopes both =
-            slopes(law, {0.0, 0.0, model.points.volume[i], alone.volume, mass, 1.0 / alone.mobility});
-        add(bounds_[i], support.normal, both, 2.0 / mass);
+        const ContactPair pair{0.0, 0.0, model.points.volume[i], alone.volume, mass, 1.0 / alone.mobility};
+        const ContactSlopes both = slopes(law, pair);
+        add(bounds_[i], support.normal, pair, both, 2.0 / mass);
         double weights = 0.0;
         for (const double weight : support.weights)
             weights += std::abs(weight);
         for (std::size_t m = 0; m < support.records.size(); ++m) {
             const std::uint32_t p = model.families.parent(support.records[m]);
             const Isometry& isometry = model.isometries[model.families.isometry(support.records[m])];
-            add(bounds_[p], isometry.rotation.transpose() * support.normal, both,
+            add(bounds_[p], isometry.rotation.transpose() * support.normal, pair, both,
                 2.0 * weights * std::abs(support.weights[m]) / model.points.mass[p]);
         }
     }

@@ -16,7 +16,7 @@ namespace periporo {
 namespace {
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-constexpr const char* format = "periporo checkpoint 3";
+constexpr const char* format = "periporo checkpoint 4";
 
 std::span<const double> flat(const std::vector<Vector3>& vectors)
 {
@@ -132,7 +132,7 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
         ledger.kinetic,    ledger.gravity,       ledger.stress_work, ledger.contact,
         ledger.friction,   ledger.collision,     ledger.opening,     dynamics.gravity_datum,
         dynamics.residual, dynamics.force_scale, ledger.verlet,      dynamics.force_squared_per_mass,
-        ledger.boundary};
+        ledger.boundary,   ledger.turned_over,   at.error_before};
     archive.put("reals", std::span<const double>(reals));
     std::vector<std::int64_t> integers{static_cast<std::int64_t>(at.stage),
                                        static_cast<std::int64_t>(at.stage_step),
@@ -178,6 +178,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     at.stage_start = reals.at(1);
     at.time_step = reals.at(2);
     at.wall_seconds = reals.at(3);
+    at.error_before = reals.at(18);
 
     // Families and contact candidates are those of the last refresh; their images are made again from its positions.
     model.isometries.restore(isometries(archive.reals("isometries")));
@@ -226,6 +227,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     dynamics.ledger.verlet = reals.at(14);
     dynamics.force_squared_per_mass = reals.at(15);
     dynamics.ledger.boundary = reals.at(16);
+    dynamics.ledger.turned_over = reals.at(17);
     dynamics.refreshes = static_cast<std::uint64_t>(integers.at(6));
     dynamics.undamped_force = vectors(archive.reals("undamped_force"));
     parts.dynamics.restore(std::move(dynamics));

@@ -30,6 +30,7 @@ struct RunPosition {
     std::vector<std::uint64_t> next_output; ///< for each output, index of its next snapshot
     double wall_seconds = 0.0;              ///< spent so far
     bool ledger_open = false;
+    double error_before = 0.0; ///< of the energy ledger when the last quasi-static stage ended [J]
     bool moved = false;        ///< the stage has seen motion, so that rest can end it
     std::string stage_reports; ///< JSON of the stages that are done
 };

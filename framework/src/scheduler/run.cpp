@@ -81,7 +81,8 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     FrequencyEstimate frequency;
     ContactForces contact(std::move(built.contacts));
     contact.find_candidates(model, description.discretization.skin());
-    const StableStep stable = stable_step(model, *force_state, contact, frequency, description.time.safety, 0.0, true);
+    const StableStep stable = stable_step(model, *force_state, contact, frequency, description.time.safety, 0.0, true,
+                                          contact_resolution(true));
     const double step = description.time.step.value_or(stable.step);
 
     std::string text = fmt::format("{}\n", description.title);
@@ -116,6 +117,9 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     text += fmt::format(
         "  step {:.4g} s (2/omega {:.4g} s, wave rule {:.4g} s{})\n", step, 2.0 / stable.frequency, stable.wave_limit,
         stable.damping_rate > 0.0 ? fmt::format(", dashpots of contacts {:.3g} 1/s", stable.damping_rate) : "");
+    if (step > stable.limit)
+        text += fmt::format("  this step is not stable, a run would refuse it: the largest stable one is {:.4g} s\n",
+                            stable.limit);
     double point_steps = 0.0;
     for (const StageDescription& stage : description.stages) {
         if (stage.type == "quasi_static") {

@@ -5,6 +5,7 @@
 
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
+#include "scheduler/guards.hpp"
 #include "scheduler/held_points.hpp"
 #include "scheduler/provenance.hpp"
 #include "scheduler/rest.hpp"
@@ -20,8 +21,8 @@
 namespace periporo {
 namespace {
 
-constexpr std::uint64_t steps_per_estimate = 50;
-constexpr std::uint64_t steps_per_point_check = 100;
+constexpr std::uint64_t steps_per_check = 50;
+constexpr double resolved_enough = 1.05; // volumes, and with them contacts, change a little between two estimates
 constexpr double far_overlap = 2.0; // over the reach of a contact: a point lies as deep inside as it should lie outside
 
 DynamicsSettings settings_of(const CaseDescription& description)
@@ -167,6 +168,7 @@ void Simulation::begin_stage()
 void Simulation::end_stage()
 {
     const StageDescription& stage = description_.stages[at_.stage];
+    check_motion();
     nlohmann::json report{{"name", stage.name},
                           {"type", stage.type},
                           {"steps", at_.stage_step},
@@ -196,8 +198,10 @@ void Simulation::end_stage()
     report_contacts();
     log_->info("stage '{}' ended: {} steps, residual {:.2e}, mean speed {:.2e} m/s", stage.name, at_.stage_step,
                dynamics_.residual(), dynamics_.mean_speed());
-    if (is_quasi_static(stage))
+    if (is_quasi_static(stage)) {
         std::fill(model_.points.velocity.begin(), model_.points.velocity.end(), Vector3::Zero());
+        at_.error_before = at_.ledger_open ? dynamics_.ledger().error() - dynamics_.ledger().kinetic : 0.0;
+    }
 }
 
 void Simulation::report_contacts()
@@ -212,26 +216,46 @@ void Simulation::report_contacts()
 
 void Simulation::renew_step()
 {
-    if (description_.time.step) {
-        at_.time_step = *description_.time.step;
-        return;
-    }
     const StageDescription& stage = description_.stages[at_.stage];
+    const std::optional<double>& given = description_.time.step;
+    const bool damped = !is_quasi_static(stage);
     StableStep stable = stable_step(model_, *force_state_, contact_, frequency_, description_.time.safety,
-                                    at_.time_step, !is_quasi_static(stage));
-    if (is_quasi_static(stage))
+                                    given.value_or(at_.time_step), damped, contact_resolution(damped));
+    if (is_quasi_static(stage)) {
         stable.step *= local_damping_factor(stage.damping);
-    const bool news = std::abs(stable.step - at_.time_step) > 0.1 * at_.time_step;
-    at_.time_step = stable.step;
-    if (news)
-        log_->info("stable step {:.4g} s: 2/omega = {:.4g} s, dashpots of contacts {:.3g} 1/s, wave rule {:.4g} s",
-                   stable.step, 2.0 / stable.frequency, stable.damping_rate, stable.wave_limit);
+        stable.limit *= local_damping_factor(stage.damping);
+    }
+    ++estimates_;
+    if (given && *given > stable.limit)
+        fail(fmt::format("the [time] step of {:.4g} s is not stable, the largest stable one is {:.4g} s; leave [time] "
+                         "step out, then the step is computed ({:.4g} s here) and follows what the bodies do, or give "
+                         "a smaller one",
+                         *given, stable.limit, stable.step));
+    const double step = given.value_or(stable.step);
+    const bool news = std::abs(step - at_.time_step) > 0.1 * at_.time_step;
+    at_.time_step = step;
+    if (news && given)
+        log_->info("step {:.4g} s as given; the computed one is {:.4g} s", step, stable.step);
+    else if (news)
+        log_->info("stable step {:.4g} s: 2/omega = {:.4g} s, dashpots of contacts {:.3g} 1/s, wave rule {:.4g} s, "
+                   "sharpest contact {:.4g} 1/s",
+                   stable.step, 2.0 / stable.frequency, stable.damping_rate, stable.wave_limit, stable.sharpest);
+}
+
+bool Simulation::contact_asks_for_shorter_step()
+{
+    const bool damped = !is_quasi_static(description_.stages[at_.stage]);
+    const double allowed = description_.time.step ? 2.0 : resolved_enough * contact_resolution(damped);
+    return contact_.is_sharper(model_, allowed / at_.time_step);
 }
 
 void Simulation::take_step(const StepOptions& options)
 {
-    if (at_.stage_step > 0 && at_.stage_step % steps_per_estimate == 0)
-        dynamics_.times().time(Phase::step_estimate, [&] { renew_step(); });
+    const bool check_due = at_.stage_step > 0 && at_.stage_step % steps_per_check == 0;
+    dynamics_.times().time(Phase::step_estimate, [&] {
+        if (check_due || contact_asks_for_shorter_step())
+            renew_step();
+    });
     StepOptions with_step = options;
     with_step.time_step = at_.time_step;
     dynamics_.book(water_.follow(model_, at_.time + at_.time_step - at_.stage_start));
@@ -239,8 +263,8 @@ void Simulation::take_step(const StepOptions& options)
     ++at_.stage_step;
     ++at_.step;
     ++steps_here_;
-    if (!std::isfinite(dynamics_.ledger().kinetic) || at_.stage_step % steps_per_point_check == 0)
-        check_points();
+    if (!std::isfinite(dynamics_.ledger().kinetic) || at_.stage_step % steps_per_check == 0)
+        check_motion();
 }
 
 bool Simulation::quasi_static(const StageDescription& stage)
@@ -310,21 +334,19 @@ std::string Simulation::stage_line(double fraction) const
         duration_text(left), dynamics_.ledger().kinetic, inactive, free_grains);
 }
 
-void Simulation::check_points()
+void Simulation::check_motion()
 {
-    const double far = 1e3 * model_.horizon;
-    for (std::size_t i = 0; i < model_.size(); ++i) {
-        const Vector3& x = model_.points.position[i];
-        const bool finite = x.allFinite() && model_.points.velocity[i].allFinite();
-        if (finite && (x - model_.points.initial_position[i]).norm() < far)
-            continue;
-        fail(fmt::format(
-            "point {} of body '{}' {} at position ({:.5g}, {:.5g}, {:.5g}) m; a smaller [time] safety or a [time] step "
-            "shows whether the step is to blame",
-            model_.points.id[i], model_.body_of(i).name,
-            finite ? "was lost, farther than 1000 horizons from where it began," : "is not finite", x.x(), x.y(),
-            x.z()));
-    }
+    const StageDescription& stage = description_.stages[at_.stage];
+    const EnergyLedger& ledger = dynamics_.ledger();
+    std::string wrong = lost_point(model_);
+    if (wrong.empty() && is_quasi_static(stage))
+        wrong = faster_than_driven(model_, description_, dynamics_.acceleration_scale());
+    if (wrong.empty() && !is_quasi_static(stage))
+        wrong = energy_of_motion_from_nowhere(model_, description_, ledger, at_.error_before);
+    if (wrong.empty() && !is_quasi_static(stage))
+        wrong = energy_error_beyond_limit(model_, description_, ledger, at_.error_before);
+    if (!wrong.empty())
+        fail(wrong);
 }
 
 bool Simulation::stop_here()
@@ -367,6 +389,7 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
     summary["outcome"] = outcome;
     summary["message"] = message;
     summary["steps"] = at_.step;
+    summary["step_estimates"] = estimates_;
     summary["time"] = at_.time;
     summary["stages"] = reports_;
     summary["wall_seconds"] = wall_seconds();

@@ -45,8 +45,11 @@ private:
     bool quasi_static(const StageDescription& stage);
     bool dynamic(const StageDescription& stage);
     void renew_step();
+    /// Does a contact, present or soon to begin, need a shorter step than that of the last estimate?
+    bool contact_asks_for_shorter_step();
     void take_step(const StepOptions& options);
-    void check_points();
+    /// Stops the run when points are lost, or speed or energy come from nowhere.
+    void check_motion();
     bool stop_here();
     void checkpoint();
     double wall_seconds() const;
@@ -74,6 +77,7 @@ private:
     std::chrono::steady_clock::time_point last_checkpoint_;
     std::chrono::duration<double> checkpoint_took_{0.0};
     std::uint64_t steps_here_ = 0; ///< in this process, for the speed
+    std::uint64_t estimates_ = 0;  ///< of the stable step, in this process
     bool resuming_ = false;
 };
 

@@ -44,6 +44,7 @@ nlohmann::json summary_of(const CaseDescription& description, const Model& model
               {"friction", ledger.friction},
               {"collision", ledger.collision},
               {"boundary", ledger.boundary},
+              {"turned_over", ledger.turned_over},
               {"error", ledger.error()}}}};
 }
 

@@ -117,6 +117,7 @@ void Dynamics::update_ledger(double time_step)
     ledger.friction -= time_step * (friction - obstacles.friction);
     ledger.collision -= time_step * (collision - obstacles.damping);
     ledger.boundary += time_step * (obstacles.reaction + held_power_);
+    ledger.turned_over = std::max(ledger.turned_over, ledger.turnover());
 }
 
 void Dynamics::sum_forces(const StepOptions& options)
@@ -198,6 +199,7 @@ void Dynamics::open_ledger()
     ledger.kinetic = kinetic_energy();
     ledger.contact = contact_.energy();
     ledger.opening = ledger.kinetic + ledger.contact;
+    ledger.turned_over = ledger.turnover();
 }
 
 void Dynamics::book(const ArrivedEnergy& arrived)

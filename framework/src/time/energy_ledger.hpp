@@ -4,6 +4,9 @@
 // Where the energy went.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace periporo {
 
 /// What mass brings with it that comes to points where they are and with their velocity [J].
@@ -27,11 +30,24 @@ struct EnergyLedger {
     /// What velocity Verlet lends to the kinetic energy within a period and takes back: minus dt^2 |F|^2/(8m) since the
     /// opening. A step from n to n+1 adds (F_n + F_n+1)/2 . dx to kinetic + verlet exactly.
     double verlet = 0.0;
+    double turned_over = 0.0; ///< largest turnover() since the opening
 
     /// What is missing or too much; 0 but for round-off while stress and contact are linear in the motion of a step.
     double error() const
     {
         return kinetic + verlet + gravity + stress_work + contact + friction + collision - boundary - opening;
+    }
+    /// Sum of all accounts whatever their sign, without the kinetic energy: it is where energy from nowhere shows.
+    double turnover() const
+    {
+        return opening + std::abs(gravity) + std::abs(stress_work) + std::abs(contact) + std::abs(friction) +
+               std::abs(collision) + std::abs(boundary);
+    }
+    /// Energy that there was for motion: sum of all accounts that gave.
+    double given() const
+    {
+        return opening - std::min(gravity, 0.0) - std::min(stress_work, 0.0) - std::min(contact, 0.0) +
+               std::max(boundary, 0.0);
     }
 };
 

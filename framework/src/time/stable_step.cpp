@@ -146,7 +146,7 @@ void FrequencyEstimate::begin_basis(const Points& points)
 }
 
 StableStep stable_step(Model& model, const ForceState& force_state, ContactForces& contact, FrequencyEstimate& estimate,
-                       double safety, double last_step, bool damped)
+                       double safety, double last_step, bool damped, double resolution)
 {
     StableStep result;
     result.wave_limit = std::numeric_limits<double>::infinity();
@@ -156,8 +156,12 @@ StableStep stable_step(Model& model, const ForceState& force_state, ContactForce
         const double speed = std::sqrt((material.bulk_modulus() + 4.0 / 3.0 * material.shear_modulus()) / density);
         result.wave_limit = std::min(result.wave_limit, 1.5 * model.spacing / speed);
     }
-    const double damping = damped ? 2.0 / (last_step > 0.0 ? last_step / safety : result.wave_limit) : 0.0;
     const std::vector<ContactBound>& bounds = contact.bounds(model);
+    result.sharpest = contact.sharpest();
+    const double resolved =
+        result.sharpest > 0.0 ? resolution / result.sharpest : std::numeric_limits<double>::infinity();
+    const double last = std::min(last_step > 0.0 ? last_step : safety * result.wave_limit, resolved);
+    const double damping = damped ? 2.0 * safety / last : 0.0;
     std::vector<Eigen::Matrix3d> grounded(model.size());
     std::ranges::transform(bounds, grounded.begin(), [damping](const ContactBound& bound) -> Eigen::Matrix3d {
         return bound.stiffness + damping * bound.damping;
@@ -170,11 +174,16 @@ StableStep stable_step(Model& model, const ForceState& force_state, ContactForce
     const double squared = together - damping * result.damping_rate;
     result.frequency = std::sqrt(std::max(squared, 0.0));
     // Of a step longer than the last one dashpots take less than was counted, of a shorter one more.
-    double limit = together > 0.0 ? 2.0 / std::sqrt(together) : result.wave_limit;
-    if (damping * limit < 2.0 && squared > 0.0)
-        limit = damped_limit(squared, result.damping_rate);
-    result.step = std::min(safety * limit, result.wave_limit);
+    result.limit = together > 0.0 ? 2.0 / std::sqrt(together) : std::numeric_limits<double>::infinity();
+    if (damping * result.limit < 2.0 && squared > 0.0)
+        result.limit = damped_limit(squared, result.damping_rate);
+    result.step = std::min({safety * result.limit, result.wave_limit, resolved});
     return result;
+}
+
+double contact_resolution(bool damped)
+{
+    return damped ? 0.3 : 0.8;
 }
 
 double damped_limit(double frequency_squared, double damping_rate)

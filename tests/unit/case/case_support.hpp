@@ -266,6 +266,7 @@ height = "12 cm"
 [run]
 checkpoint_every = "5 min"
 history_every = "2 ms"
+energy_error_limit = 0.02
 )";
 
 inline CaseDescription read_text(const std::string& text, const std::vector<std::string>& overrides = {})

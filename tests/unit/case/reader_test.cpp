@@ -21,6 +21,7 @@ TEST_CASE("a minimal case gets the documented defaults")
     CHECK_FALSE(read.time.step.has_value());
     CHECK(read.checkpoint_every == defaults.checkpoint_every);
     CHECK(read.history_every == defaults.history_every);
+    CHECK(read.energy_error_limit == defaults.energy_error_limit);
     CHECK_FALSE(read.comparison.has_value());
     CHECK(read.boundaries.empty());
     CHECK(read.contacts.empty());
@@ -60,6 +61,7 @@ TEST_CASE("sections of the framework arrive in SI")
     CHECK(read.time.step == 2e-6);
     CHECK(read.checkpoint_every == 300.0);
     CHECK(read.history_every == 0.002);
+    CHECK(read.energy_error_limit == 0.02);
     REQUIRE(read.comparison.has_value());
     CHECK(read.comparison->law == "axisymmetric_column");
     CHECK(read.comparison->radius == 0.1);

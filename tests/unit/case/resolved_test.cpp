@@ -93,6 +93,7 @@ void check_same(const CaseDescription& a, const CaseDescription& b)
     }
     CHECK(a.checkpoint_every == b.checkpoint_every);
     CHECK(a.history_every == b.history_every);
+    CHECK(a.energy_error_limit == b.energy_error_limit);
     CHECK(a.plugin_paths == b.plugin_paths);
 }
 

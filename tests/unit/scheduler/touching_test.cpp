@@ -1,0 +1,141 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The step holds when a contact begins: blocks that fall, and grains that collide, at the default step.
+#include "small_run.hpp"
+
+#include <fmt/format.h>
+
+using namespace periporo::test;
+
+namespace {
+
+std::string law_text(const std::string& law, double modulus, double restitution)
+{
+    std::string text = fmt::format("law = '{}'\nfriction = 0.5\nrestitution = {}\n", law, restitution);
+    text += law == "hertz" ? fmt::format("young_modulus = '{} Pa'\npoisson_ratio = 0.3\n", modulus)
+                           : fmt::format("modulus = '{} Pa'\n", modulus);
+    if (law == "adhesive")
+        text += "strength = '0.1 Pa'\n";
+    if (law == "rigid_plane")
+        text += "point = [0, 0, 0]\nnormal = [0, 0, 1]\n";
+    return text;
+}
+
+std::string box(double edge, double height, double bottom) // [mm]
+{
+    return fmt::format("{{ generator = 'box', size = ['{0} mm', '{0} mm', '{1} mm'], "
+                       "origin = ['{2} mm', '{2} mm', '{3} mm'] }}",
+                       edge, height, -0.5 * edge, bottom);
+}
+
+/// What a block meets.
+enum class Meets { plane, obstacle, moving_obstacle, points, smoothed };
+
+struct Fall {
+    const char* name;
+    Meets meets;
+    const char* law;
+    double modulus; // [Pa]
+    const char* force_state;
+    double speed; // of a fall of speed^2/(2 g) [m/s]
+};
+
+/// 4 x 4 x 6 points of 10 mm, 1.3 mm above what they meet.
+std::string fall_text(const Fall& fall)
+{
+    const bool comes_up = fall.meets == Meets::moving_obstacle;
+    std::string text =
+        "title = 'fall'\n[discretization]\nspacing = '10 mm'\n[material.a]\nmodel = 'linear_elastic'\n"
+        "grain_density = '2600 kg/m3'\nporosity = 0.4\nbulk_modulus = '10 MPa'\nshear_modulus = '5 MPa'\n"
+        "[run]\nhistory_every = '0.1 ms'\n[[output]]\nwriter = 'csv'\nevery = '1 s'\n"
+        "[[stage]]\nname = 'go'\ntype = 'dynamic'\nduration = '15 ms'\n";
+    text += fmt::format("[operator]\nforce_state = '{}'\n", fall.force_state);
+    text += fmt::format("[body.b]\nmaterial = 'a'\ngeometry = {}\nvelocity = [0, 0, '{} m/s']\n", box(40.0, 60.0, 1.3),
+                        comes_up ? 0.0 : -fall.speed);
+    std::string between = "'b'";
+    if (fall.meets == Meets::obstacle || comes_up) {
+        text += fmt::format("[obstacle.o]\nvelocity = [0, 0, '{} m/s']\ngeometry = {}\n", comes_up ? fall.speed : 0.0,
+                            box(1000.0, 1000.0, -1000.0));
+        between = "'b', 'o'";
+    } else if (fall.meets != Meets::plane) {
+        text += fmt::format("[body.c]\nmaterial = 'a'\ngeometry = {}\n", box(40.0, 60.0, -60.0));
+        between = "'b', 'c'";
+    }
+    text += fmt::format("[[contact]]\nbetween = [{}]\n{}", between, law_text(fall.law, fall.modulus, 0.1));
+    if (fall.meets == Meets::smoothed)
+        text += "surface = 'c'\n";
+    return text;
+}
+
+/// One grain of 10 mm meets a plane or another grain at 1 m/s, without gravity. Returns its speed afterwards, relative
+/// to the other.
+double speed_after(const char* law, double modulus, double restitution, double ratio_of_masses, double gap)
+{
+    const bool pair = ratio_of_masses > 0.0;
+    std::string text = "title = 'grain'\ngravity = [0, 0, 0]\n[discretization]\nspacing = '10 mm'\n"
+                       "[[output]]\nwriter = 'csv'\nevery = '1 s'\n";
+    const auto material = [&text](const char* name, double density) {
+        text += fmt::format("[material.{}]\nmodel = 'linear_elastic'\ngrain_density = '{} kg/m3'\nporosity = 0.0\n"
+                            "bulk_modulus = '4 MPa'\nshear_modulus = '2.4 MPa'\n",
+                            name, density);
+    };
+    material("a", 2600.0);
+    text += fmt::format("[body.a]\nmaterial = 'a'\ngeometry = {}\nvelocity = [0, 0, '-1 m/s']\n",
+                        box(10.0, 10.0, gap + (pair ? 8.0 : 0.0)));
+    if (pair) {
+        material("b", 2600.0 * ratio_of_masses);
+        text += fmt::format("[body.b]\nmaterial = 'b'\ngeometry = {}\n", box(10.0, 10.0, 0.0));
+    }
+    text +=
+        fmt::format("[[contact]]\nbetween = [{}]\n{}", pair ? "'a', 'b'" : "'a'", law_text(law, modulus, restitution));
+    text += "[[stage]]\nname = 'go'\ntype = 'dynamic'\nduration = '25 ms'\n";
+    const SmallRun run = run_text(text);
+    REQUIRE(run.failure.empty());
+    const double mass = 2.6e-3, other = mass * ratio_of_masses;
+    const double reduced = pair ? mass * other / (mass + other) : mass;
+    const double common = pair ? 0.5 * mass * mass / (mass + other) : 0.0; // energy of the centre of mass [J]
+    return std::sqrt(std::max(0.0, run.energy("kinetic") - common) / (0.5 * reduced));
+}
+
+} // namespace
+
+TEST_CASE(
+    "a block that falls on anything loses and gains no energy: the error is below 1 per cent of what was released")
+{
+    for (const Fall& fall : {
+             Fall{"16 mm on a plane", Meets::plane, "rigid_plane", 4e6, "energy_conjugate", 0.56},
+             Fall{"1 m on a soft plane", Meets::plane, "rigid_plane", 1e5, "energy_conjugate_mean", 4.4},
+             Fall{"1 m on a plane", Meets::plane, "rigid_plane", 1e7, "bond_projection", 4.4},
+             Fall{"1 mm on a hard plane", Meets::plane, "rigid_plane", 1e8, "bond_projection", 0.14},
+             Fall{"0.1 m on a hard obstacle", Meets::obstacle, "penalty", 1e8, "bond_projection", 1.4},
+             Fall{"0.1 m on an obstacle of spheres", Meets::obstacle, "hertz", 1e8, "bond_projection", 1.4},
+             Fall{"an obstacle that comes at 1.4 m/s", Meets::moving_obstacle, "short_range", 1e8, "bond_projection",
+                  1.4},
+             Fall{"1 m on points", Meets::points, "penalty", 1e8, "bond_projection", 4.4},
+             Fall{"16 mm on points that stick", Meets::points, "adhesive", 1e8, "bond_projection", 0.56},
+             Fall{"16 mm on a smoothed surface", Meets::smoothed, "short_range", 1e6, "bond_projection", 0.56},
+         }) {
+        CAPTURE(std::string(fall.name));
+        const SmallRun run = run_text(fall_text(fall));
+        CHECK(run.failure == "");
+        const double mass = 0.6 * 2600.0 * 96e-6;
+        const double released = 0.5 * mass * fall.speed * fall.speed;
+        CHECK(run.largest("contact_energy") > 1e-3 * released); // or nothing was met
+        CHECK(std::abs(run.energy("error")) < 0.01 * released);
+    }
+}
+
+TEST_CASE("a grain leaves a collision with the restitution of the law, on a plane and on grains of other masses")
+{
+    for (const double restitution : {0.0, 0.1, 0.5, 1.0})
+        for (const double gap : {0.1, 0.127}) {
+            CAPTURE(restitution);
+            CAPTURE(gap);
+            const double wanted = std::max(restitution, 0.048);
+            CHECK(std::abs(speed_after("rigid_plane", 4e6, restitution, 0.0, gap) - wanted) < 0.02);
+            CHECK(std::abs(speed_after("rigid_plane", 1e8, restitution, 0.0, gap) - wanted) < 0.02);
+            CHECK(std::abs(speed_after("penalty", 1e7, restitution, 5.0, gap) - wanted) < 0.02);
+            CHECK(std::abs(speed_after("hertz", 1e7, restitution, 1.0, gap) - wanted) < 0.02);
+        }
+}
