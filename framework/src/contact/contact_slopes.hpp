@@ -14,7 +14,7 @@ namespace periporo {
 /// Gap below which a contact counts in the estimate of the largest frequency, in spacings: it may close before the next
 /// estimate. Between points it is small, as points of a deposit lie just out of reach of each other everywhere.
 inline constexpr double surface_margin = 0.5;
-inline constexpr double pair_margin = 0.15;
+inline constexpr double pair_margin = 0.1;
 
 struct ContactSlopes {
     double stiffness; ///< [N/m]
