@@ -110,9 +110,11 @@ std::vector<std::uint32_t> IsometryTable::active(const Vector3& lower, const Vec
             found.push_back(number);
             frontier.push_back(number);
             if (found.size() > most_isometries)
-                throw std::runtime_error(fmt::format("the symmetry planes and periodic pairs make more than {} images; "
-                                                     "planes must be parallel or perpendicular to each other",
-                                                     most_isometries));
+                throw std::runtime_error(fmt::format(
+                    "symmetry planes and periodic pairs make more than {} images of points in the box from ({:.4g}, "
+                    "{:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m: points have run far away, planes are too close "
+                    "together for the box, or they are neither parallel nor perpendicular to each other",
+                    most_isometries, lower.x(), lower.y(), lower.z(), upper.x(), upper.y(), upper.z()));
         }
     }
     return found;

@@ -69,5 +69,5 @@ TEST_CASE("planes at an odd angle are refused with a reason")
     tilted.rotation -= 2.0 * normal * normal.transpose();
     table.set_generators({Isometry::reflection(0, 0.0), tilted});
     CHECK_THROWS_WITH_AS(table.active(Vector3::Zero(), Vector3::Ones(), 10.0),
-                         doctest::Contains("parallel or perpendicular"), std::runtime_error);
+                         doctest::Contains("neither parallel nor perpendicular"), std::runtime_error);
 }
