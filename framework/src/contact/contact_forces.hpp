@@ -112,11 +112,11 @@ public:
     /// For the stable step, of every point: every law at full overlap, with the contacts that there are at the present
     /// positions and those whose gap is below a margin. Records must be current, and candidates found.
     const std::vector<ContactBound>& bounds(const Model& model);
-    /// Largest angular frequency of one contact alone in the last bounds() [1/s]
+    /// Largest angular frequency of one contact alone that the last bounds() or is_sharper() found [1/s]
     double sharpest() const { return sharpest_; }
-    /// Is there a contact alone of more than `frequency` [1/s], or one that begins unless it is stopped within a few
-    /// steps? Its gap is below two thirds of the margin of bounds(), so that bounds() finds it. To be called before a
-    /// step, which is too long for such a contact unless bounds() has counted it.
+    /// Has a contact alone more than `frequency` [1/s]? Contacts count that are present, or whose gap is below two
+    /// thirds of the margin of bounds(), so that bounds() counts them too. To be called before a step: contacts that
+    /// the last bounds() did not count may need a shorter one.
     bool is_sharper(const Model& model, double frequency);
 
 private:

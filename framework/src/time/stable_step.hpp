@@ -69,11 +69,11 @@ private:
     Vectors velocity_;
 };
 
-/// step = min(safety * limit, 1.5 dx/c_p, resolution/omega of the sharpest contact alone), with c_p = sqrt((K
-/// + 4G/3)/rho), the fastest of the bodies, and contacts at full overlap, of which the next ones count too. Limit: with
-/// dashpots a step dt is stable when no eigenvalue of dt^2 K + 2 dt C is above 4 (see damped_limit()). The highest mode
-/// of K + 2 C/dt is sought at the last step dt, with what contact adds as bounds of each point, and the limit is that
-/// of an oscillator with the stiffness and damping of this mode.
+/// step = min(safety * limit, 1.5 dx/c_p, resolution/omega of the sharpest contact alone). c_p = sqrt((K + 4G/3)/rho)
+/// is that of the fastest body; contacts count at full overlap, those about to begin too. Limit: with dashpots a step
+/// dt is stable when no eigenvalue of dt^2 K + 2 dt C is above 4 (see damped_limit()). The highest mode of K + 2 C/dt
+/// is sought at the last step dt, with what contact adds as bounds of each point, and the limit is that of an
+/// oscillator with the stiffness and damping of this mode. The dashpots of dashpot_in_steps() are weaker than that.
 /// @param last_step 0 at the beginning [s]
 /// @param damped whether the dashpots of contacts act
 /// @param resolution contact_resolution(), largest product of the step and the angular frequency of a contact [-]
