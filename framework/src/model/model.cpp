@@ -4,6 +4,7 @@
 #include "model/model.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace periporo {
 
@@ -26,13 +27,26 @@ void Model::allocate()
     free_grain.assign(n, 0);
 }
 
-void Model::find_families(const Families* before, std::span<const ClosedPair> closed)
+Families Model::families_now(const Families* before, std::span<const ClosedPair> closed)
 {
     std::vector<double> joining(bodies.size());
     std::ranges::transform(bodies, joining.begin(),
                            [this](const Body& body) { return body.joining_distance * spacing; });
-    families = Families::find(points, isometries, {horizon, link_length(spacing, horizon), before, closed, joining});
+    return Families::find(points, isometries, {horizon, link_length(spacing, horizon), before, closed, joining});
+}
+
+void Model::find_families()
+{
+    families = families_now(nullptr, {});
     follow_families();
+}
+
+Model::Replaced Model::renew_families(std::span<const ClosedPair> closed)
+{
+    Families next = families_now(&families, closed);
+    Replaced replaced{std::exchange(families, std::move(next)), std::exchange(bonds.active, {})};
+    follow_families();
+    return replaced;
 }
 
 void Model::restore_families(const Families::Kept& kept)

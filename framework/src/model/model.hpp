@@ -169,8 +169,16 @@ struct Model {
     void allocate();
     /// Families, and what follows from them, at the current positions. The states of bonds are not touched; none is
     /// active.
-    /// @param before the families until now, null at the start; closed: see FamilyRule
-    void find_families(const Families* before = nullptr, std::span<const ClosedPair> closed = {});
+    void find_families();
+    /// What a refresh replaces.
+    struct Replaced {
+        Families families;
+        ActiveBonds active;
+    };
+    /// The same for families that follow from those until now, see FamilyRule.
+    /// @return those until now
+    /// @throws what Families::find() throws; the model is then what it was
+    Replaced renew_families(std::span<const ClosedPair> closed = {});
     /// The same with families that a checkpoint kept.
     void restore_families(const Families::Kept& kept);
     /// Copies positions, velocities and volumes of points and images to the records.
@@ -179,6 +187,7 @@ struct Model {
     std::size_t memory() const;
 
 private:
+    Families families_now(const Families* before, std::span<const ClosedPair> closed);
     void follow_families();
     template <class Value>
     HeldBondsOf<Value> held_bonds(std::size_t point, const FamilyView& family, Value* state) const

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace periporo {
 namespace {
@@ -248,10 +247,8 @@ void refresh_families(Model& model, const ForceState& force_state, std::span<con
     model.update_records();
     std::vector<double> states = model.point_state;
     mean_point_states(model, force_state, states);
+    const Model::Replaced replaced = model.renew_families(closed);
     model.point_state.swap(states);
-    const Families families_before = std::exchange(model.families, {});
-    const ActiveBonds active_before = std::exchange(model.bonds.active, {});
-    model.find_families(&families_before, closed);
 #pragma omp parallel
     {
         BlockBefore before;
@@ -261,7 +258,7 @@ void refresh_families(Model& model, const ForceState& force_state, std::span<con
             before.keep(model, block);
             model.lay_out_bonds(block);
             for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i)
-                hand_over(model, i, families_before, active_before, before.state(i), seen);
+                hand_over(model, i, replaced.families, replaced.active, before.state(i), seen);
         }
     }
     hand_out_point_variables(model);

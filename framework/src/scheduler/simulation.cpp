@@ -25,6 +25,12 @@ constexpr std::uint64_t steps_per_check = 50;
 constexpr double resolved_enough = 1.05; // volumes, and with them contacts, change a little between two estimates
 constexpr double far_overlap = 2.0; // over the reach of a contact: a point lies as deep inside as it should lie outside
 
+/// A failure that says stage, step and time already.
+class RunFailure : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 DynamicsSettings settings_of(const CaseDescription& description)
 {
     return {description.discretization.skin(), description.discretization.refresh == "every_step"};
@@ -85,6 +91,10 @@ RunOutcome Simulation::run()
         fail(fmt::format("{} at position ({:.5g}, {:.5g}, {:.5g}) m", failure.what(),
                          model_.points.position[failure.point()].x(), model_.points.position[failure.point()].y(),
                          model_.points.position[failure.point()].z()));
+    } catch (const RunFailure&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail(error.what());
     }
     progress_.clear();
     outputs_.finish(true);
@@ -409,8 +419,8 @@ void Simulation::fail(const std::string& what)
     outputs_.write_now(model_, *force_state_, at_, stage);
     outputs_.finish(false);
     write_summary("failed", message);
-    throw std::runtime_error(
-        message + fmt::format("\nthe state at the failure is the last snapshot in {}", options_.directory.string()));
+    throw RunFailure(message +
+                     fmt::format("\nthe state at the failure is the last snapshot in {}", options_.directory.string()));
 }
 
 } // namespace periporo

@@ -54,8 +54,7 @@ std::size_t bonds_across(const Model& model)
 
 void find_again(Model& model, const std::vector<ClosedPair>& closed = {})
 {
-    const Families before = std::exchange(model.families, {});
-    model.find_families(&before, closed);
+    model.renew_families(closed);
 }
 
 } // namespace
