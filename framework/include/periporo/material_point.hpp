@@ -47,6 +47,9 @@ struct MixedStep {
     double time_step = 0.0; ///< [s]
     /// The largest deviation of a controlled stress that is left [Pa].
     double tolerance = 1e-6;
+    /// Is the shear xz a simple one, of planes z = const. that slide along x? Its velocity gradient has 2 D_xz at xz
+    /// and nothing at zx: the point turns by the angle of the strain xz. Else shear strains are pure, without spin.
+    bool simple_shear = false;
 };
 
 /// Values may be copied: a copy goes its own way from there. The material must outlive it.
@@ -83,10 +86,11 @@ public:
     }
 
     /// Advances by a strain increment [-] over a time step [s]. A failed step leaves the point as it was.
-    MaterialStatus step(const SymmetricTensor<double>& strain_increment, double time_step)
+    /// @param turn of the material during the step, about y from z towards x [rad]
+    MaterialStatus step(const SymmetricTensor<double>& strain_increment, double time_step, double turn = 0.0)
     {
         Rows rows = rows_;
-        const MaterialStatus status = respond(rows, strain_increment, time_step);
+        const MaterialStatus status = respond(rows, strain_increment, time_step, turn);
         if (!status.converged)
             return status;
         rows_ = rows;
@@ -106,7 +110,7 @@ public:
                 step.increment[static_cast<std::size_t>(c)];
         const auto residual = [&](const Components& trial, MaterialStatus& status) {
             Rows rows = rows_;
-            status = respond(rows, tensor(trial), step.time_step);
+            status = respond(rows, tensor(trial), step.time_step, turn_of(step, trial));
             Components difference = components(tensor(rows)) - target;
             for (int c = 0; c < 6; ++c)
                 if (!step.stress_controlled[static_cast<std::size_t>(c)])
@@ -119,7 +123,7 @@ public:
             if (!status.converged)
                 return status;
             if (left.cwiseAbs().maxCoeff() <= step.tolerance)
-                return this->step(tensor(strain), step.time_step);
+                return this->step(tensor(strain), step.time_step, turn_of(step, strain));
             const Components move = newton_step(step.stress_controlled, strain, residual, left);
             if (!move.allFinite())
                 break;
@@ -172,11 +176,30 @@ private:
         return batch;
     }
 
-    MaterialStatus respond(Rows& rows, const SymmetricTensor<double>& strain_increment, double time_step) const
+    /// The spin of simple shear, (L_xz - L_zx)/2, equals the rate of the strain xz.
+    static double turn_of(const MixedStep& step, const Components& strain)
+    {
+        return step.simple_shear ? strain[5] : 0.0;
+    }
+
+    static void turn_stress(Rows& rows, double angle)
+    {
+        const double c = std::cos(angle), s = std::sin(angle);
+        store(rotated(tensor(rows), Tensor<double>{c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c}), rows);
+    }
+
+    /// Half of the turn before the law and half after it: the strain is that of the middle of the step, and the error
+    /// is of second order.
+    MaterialStatus respond(Rows& rows, const SymmetricTensor<double>& strain_increment, double time_step,
+                           double turn) const
     {
         Rows strain(6);
         store(strain_increment, strain);
+        if (turn != 0.0)
+            turn_stress(rows, 0.5 * turn);
         MaterialStatus status = material_->update(batch(rows, strain, time_step));
+        if (turn != 0.0 && status.converged)
+            turn_stress(rows, 0.5 * turn);
         if (status.converged && !components(tensor(rows)).allFinite())
             status = {false, 0, "the law gave a stress that is not a finite number and did not say so"};
         return status;

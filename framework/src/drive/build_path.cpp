@@ -46,6 +46,7 @@ MixedStage mixed_of(const CheckedTable& stage)
     MixedStage kind;
     kind.suction = optional_real(stage.own, "suction");
     kind.saturation = optional_real(stage.own, "saturation");
+    kind.simple_shear = stage.own.text("motion") == "simple_shear";
     const std::vector<std::string> held = optional_texts(stage.own, "held_stress");
     for (std::size_t c = 0; c < 6; ++c) {
         const std::string name = symmetric_component_names[c];

@@ -42,7 +42,8 @@ struct DrainedTriaxialStage {
 struct UndrainedTriaxialStage {
     double axial_compression = 0.0;
 };
-/// Shear in the xz plane without lateral strain.
+/// Planes z = const. slide along x, L = gamma_dot e_x (x) e_z, without lateral strain. The spin of this motion turns
+/// the stress. Stresses are those of the horizontal plane and of fixed axes, also where they are controlled.
 struct SimpleShearStage {
     StageTarget target;           ///< stress xz, or shear strain gamma = 2 eps_xz
     bool constant_height = false; ///< else the stress zz is held
@@ -64,6 +65,7 @@ struct MixedStage {
     std::array<std::optional<double>, 6> stress; ///< at the end [Pa]
     std::array<bool, 6> stress_held{};
     std::array<double, 6> strain{}; ///< change where the stress is neither prescribed nor held [-]
+    bool simple_shear = false;      ///< has the shear xz the spin of simple shear? Else no motion has a spin
     std::optional<double> suction;
     std::optional<double> saturation;
 };

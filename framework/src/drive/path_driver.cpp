@@ -21,6 +21,7 @@ struct Increment {
     std::array<bool, 6> stress_controlled{};
     StageValues values; ///< stresses and water at the end; strains of this step
     double time_step = 0.0;
+    bool simple_shear = false;
 
     /// The first half of the step, from the point where it begins.
     Increment first_half(const MaterialPoint& point) const
@@ -52,6 +53,7 @@ MixedStep mixed_step(const MaterialPoint& point, const Increment& increment)
     step.stress_controlled = increment.stress_controlled;
     step.increment = increment.values.components;
     step.time_step = increment.time_step;
+    step.simple_shear = increment.simple_shear;
     const std::array<double, 6> stress = components_of(point.stress());
     double largest = 1e3; // [Pa]: below, differences of a millionth of a pascal mean nothing
     for (std::size_t c = 0; c < 6; ++c) {
@@ -110,7 +112,7 @@ struct Drive {
 
     Increment increment_between(const StagePlan& plan, double from, double to, double time_step) const
     {
-        Increment increment{plan.stress_controlled, plan.at(to), time_step};
+        Increment increment{plan.stress_controlled, plan.at(to), time_step, plan.simple_shear};
         StageValues& values = increment.values;
         if (curve != nullptr && plan.wet)
             values.saturation = saturation_of(*curve, values.suction, path, record.rows.back().point);
@@ -135,6 +137,7 @@ MixedStage as_stage(const Increment& increment)
         else
             stage.strain[c] = increment.values.components[c];
     }
+    stage.simple_shear = increment.simple_shear;
     stage.suction = increment.values.suction;
     stage.saturation = increment.values.saturation;
     return stage;

@@ -125,9 +125,10 @@ std::string stage_text(const FailedStep& failure, const PathStage& stage)
     for (std::size_t c = 0; c < 6; ++c)
         if (!step.stress[c])
             strain[c] = step.strain[c];
-    return fmt::format("[[stage]]\ntype = \"mixed\"\nsteps = 1\nhalvings = {}\nduration = {}\n"
+    return fmt::format("[[stage]]\ntype = \"mixed\"\nmotion = \"{}\"\nsteps = 1\nhalvings = {}\nduration = {}\n"
                        "suction = {}\nsaturation = {}\nstress = {{ {} }}\nstrain = {{ {} }}\n",
-                       stage.halvings, toml_text(failure.time_step), toml_text(step.suction.value()),
+                       step.simple_shear ? "simple_shear" : "irrotational", stage.halvings,
+                       toml_text(failure.time_step), toml_text(step.suction.value()),
                        toml_text(step.saturation.value()), component_list(step.stress), component_list(strain));
 }
 

@@ -96,8 +96,13 @@ std::vector<Parameter> with_rate(std::vector<Parameter> targets)
 TableRules simple_shear_rules()
 {
     TableRules rules{with_rate(either(
-        Parameter::real("shear_strain", dimension::none, "Shear strain gamma_xz = 2 eps_xz, change in the stage"),
-        Parameter::real("shear_stress", dimension::pressure, "Shear stress xz at the end")))};
+        Parameter::real(
+            "shear_strain", dimension::none,
+            "Shear gamma of planes z = const. that slide along x, change in the stage; the stress turns with "
+            "the spin of this motion"),
+        Parameter::real("shear_stress", dimension::pressure,
+                        "Shear stress xz of the horizontal plane at the end; the stress turns with the shear that it "
+                        "takes")))};
     rules.parameters.push_back(
         Parameter::text("vertical", "What is held in the direction z").one_of({"constant_stress", "constant_height"}));
     return rules;
@@ -139,6 +144,10 @@ TableRules mixed_rules()
                           .one_of(std::vector<std::string>(std::begin(symmetric_component_names),
                                                            std::end(symmetric_component_names)))
                           .optional(),
+                      Parameter::text("motion", "What turns: nothing, shear strains are pure; or the point with the "
+                                                "shear xz, of planes z = const. that slide along x")
+                          .one_of({"irrotational", "simple_shear"})
+                          .by_default("irrotational"),
                       duration()}};
     for (Parameter& record : suction_records())
         rules.parameters.push_back(std::move(record).optional());

@@ -86,6 +86,7 @@ struct Planner {
     StagePlan operator()(const SimpleShearStage& stage) const
     {
         StagePlan plan = at_rest(point);
+        plan.simple_shear = true;
         if (!stage.constant_height)
             hold_stress(plan, zz, point);
         if (stage.target.is_stress)
@@ -126,6 +127,7 @@ struct Planner {
     {
         StagePlan plan = at_rest(point);
         set_water(plan, stage.suction, stage.saturation);
+        plan.simple_shear = stage.simple_shear;
         for (std::size_t c = 0; c < 6; ++c) {
             if (stage.stress[c])
                 control_stress(plan, c, point, *stage.stress[c]);

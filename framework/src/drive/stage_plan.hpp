@@ -24,6 +24,7 @@ struct StageValues {
 struct StagePlan {
     std::array<bool, 6> stress_controlled{};
     bool total_stress = false; ///< are the normal stresses total ones, effective + S_r s?
+    bool simple_shear = false; ///< does the point turn with the shear xz, as MixedStep says?
     bool wet = false;          ///< is there water, with a saturation by the retention curve where there is one?
     StageValues start;
     StageValues target;

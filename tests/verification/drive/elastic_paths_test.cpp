@@ -4,6 +4,8 @@
 // Every kind of stage with Hooke's law, where each has a closed form: K = 2 MPa, G = 1.2 MPa, E = 3 MPa, nu = 0.25.
 #include "support/paths.hpp"
 
+#include <fmt/format.h>
+
 using namespace periporo;
 using namespace periporo::test;
 
@@ -80,17 +82,88 @@ TEST_CASE("undrained triaxial compression keeps volume and pressure and has q = 
     CHECK(equivalent_shear_strain(path.end().strain()) == doctest::Approx(0.01).epsilon(tight).scale(0.0));
 }
 
-TEST_CASE("simple shear by gamma gives the shear stress G gamma, under control of strain and of stress")
+namespace {
+
+std::string sheared(const std::string& vertical, const std::string& target, int steps)
 {
-    for (const std::string target : {"shear_strain = 0.02", "shear_stress = \"24 kPa\""})
-        for (const std::string vertical : {"constant_height", "constant_stress"}) {
+    return rubber + start + "[[stage]]\ntype = \"simple_shear\"\nduration = 1\nvertical = \"" + vertical + "\"\n" +
+           target + "\nsteps = " + std::to_string(steps) + "\n";
+}
+
+/// A stress or a strain as a number of the file.
+std::string given(const std::string& key, double value)
+{
+    return fmt::format("{} = {}", key, value);
+}
+
+} // namespace
+
+TEST_CASE(
+    "simple shear by gamma at constant height gives G sin gamma and turns into G (1 - cos gamma) of normal stress")
+{
+    // Jaumann's rate of stress: d sigma_xz/d gamma = G + (sigma_zz - sigma_xx)/2, d sigma_xx/d gamma = sigma_xz
+    for (const double gamma : {0.02, 1.0, -1.0})
+        for (const std::string& target :
+             {given("shear_strain", gamma), given("shear_stress", shear_modulus * std::sin(gamma))}) {
             CAPTURE(target);
-            CAPTURE(vertical);
-            const DrivenPath path(stage("type = \"simple_shear\"\nvertical = \"" + vertical + "\"\n" + target));
-            CHECK(path.end().stress().xz == doctest::Approx(shear_modulus * 0.02).epsilon(tight));
-            CHECK(2.0 * path.end().strain().xz == doctest::Approx(0.02).epsilon(tight).scale(0.0));
-            CHECK(path.end().stress().zz == doctest::Approx(-10e3).epsilon(tight));
+            const DrivenPath path(sheared("constant_height", target, 1000));
+            const SymmetricTensor<double> stress = path.end().stress();
+            // a step of 0.001 is off by its square over 24
+            const double off = shear_modulus * 1e-6 / 24.0 * std::abs(gamma) + tight * shear_modulus;
+            CHECK(std::abs(stress.xz - shear_modulus * std::sin(gamma)) < off);
+            CHECK(std::abs(stress.xx + 10e3 - shear_modulus * (1.0 - std::cos(gamma))) < off);
+            CHECK(std::abs(stress.zz + 10e3 + shear_modulus * (1.0 - std::cos(gamma))) < off);
+            CHECK(stress.yy == doctest::Approx(-10e3).epsilon(tight));
+            CHECK(std::abs(2.0 * path.end().strain().xz - gamma) < 1e-6);
         }
+}
+
+TEST_CASE("simple shear by gamma at constant vertical stress follows the sine of a slower turn")
+{
+    // With M = K + 4 G/3 and L = K - 2 G/3 the height answers by d eps_zz = sigma_xz d gamma/M, so that
+    // d(sigma_xx - sigma_zz)/d gamma = (1 + L/M) sigma_xz: sigma_xz = G/w sin(w gamma), w^2 = (1 + L/M)/2
+    const double confined = bulk_modulus + 4.0 / 3.0 * shear_modulus;
+    const double w = std::sqrt(0.5 * (1.0 + (bulk_modulus - 2.0 / 3.0 * shear_modulus) / confined));
+    const double gamma = 1.0, shear_stress = shear_modulus / w * std::sin(w * gamma);
+    for (const std::string& target : {given("shear_strain", gamma), given("shear_stress", shear_stress)}) {
+        CAPTURE(target);
+        const DrivenPath path(sheared("constant_stress", target, 1000));
+        const SymmetricTensor<double> stress = path.end().stress(), strain = path.end().strain();
+        CHECK(stress.zz == doctest::Approx(-10e3).epsilon(tight * shear_modulus / 10e3).scale(0.0));
+        CHECK(stress.xz == doctest::Approx(shear_stress).epsilon(1e-6).scale(0.0)); // square of a step
+        CHECK(2.0 * strain.xz == doctest::Approx(gamma).epsilon(1e-6).scale(0.0));
+        CHECK(
+            strain.zz ==
+            doctest::Approx(shear_modulus / (confined * w * w) * (1.0 - std::cos(w * gamma))).epsilon(1e-6).scale(0.0));
+    }
+}
+
+TEST_CASE("large steps of simple shear have an error of second order")
+{
+    const auto error_in = [](int steps) {
+        const DrivenPath path(sheared("constant_height", "shear_strain = 1.0", steps));
+        return path.end().stress().xz / (shear_modulus * std::sin(1.0)) - 1.0;
+    };
+    const double five = error_in(5), ten = error_in(10);
+    CHECK(five == doctest::Approx(0.04 / 24.0).epsilon(0.02)); // (Delta gamma)^2/24
+    CHECK(five / ten == doctest::Approx(4.0).epsilon(0.01));
+}
+
+TEST_CASE("a mixed stage turns with its shear xz when it says so, and a pure shear has no spin")
+{
+    const std::string keys = "type = \"mixed\"\nduration = 1\nsteps = 1000\nstrain = { xz = 0.5 }\n";
+    const DrivenPath pure(rubber + start + "[[stage]]\n" + keys);
+    CHECK(pure.end().stress().xz == doctest::Approx(shear_modulus).epsilon(tight));
+    CHECK(pure.end().stress().xx == doctest::Approx(-10e3).epsilon(tight));
+    const DrivenPath simple(rubber + start + "[[stage]]\nmotion = \"simple_shear\"\n" + keys);
+    CHECK(simple.end().stress().xz == doctest::Approx(shear_modulus * std::sin(1.0)).epsilon(1e-6).scale(0.0));
+    CHECK(simple.end().strain().xz == pure.end().strain().xz);
+}
+
+TEST_CASE("a two-way cycle of simple shear leads an elastic stress back")
+{
+    const DrivenPath path(sheared("constant_height", "shear_strain = 0.5\ncycles = 1\ntwo_way = true", 50));
+    CHECK(norm(path.end().stress() - path.start().stress()) < 1e-12 * shear_modulus); // round-off of 200 steps
 }
 
 TEST_CASE("true triaxial compression goes to three pressures, or by three compressions")

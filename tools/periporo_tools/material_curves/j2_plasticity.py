@@ -51,16 +51,14 @@ def _saturating(drive: Driver, name: str, limit: float, rate: float) -> Curve:
 
 
 def _bingham(drive: Driver, viscosity: float) -> Curve:
-    """Steady simple shear at ever higher rates: tau = s_y/sqrt(3) + eta gamma_dot."""
+    """Steady shear, without the spin of a simple one, at ever higher rates: tau = s_y/sqrt(3) + eta gamma_dot."""
     rates = np.geomspace(1.0, 1e3, 16)
     relaxation = viscosity / _SHEAR
     # Backward Euler divides the distance from the steady stress by 1 + 2 or more in each of 50 steps.
+    strains = 0.1 + 100.0 * relaxation * rates
     stages = [
-        {
-            "type": "simple_shear", "vertical": "constant_height", "steps": 50, "strain_rate": rate,
-            "shear_strain": 0.1 + 100.0 * relaxation * rate,
-        }
-        for rate in rates
+        {"type": "mixed", "steps": 50, "strain": {"xz": 0.5 * strain}, "duration": strain / rate}
+        for strain, rate in zip(strains, rates)
     ]
     path = drive(_CLAY | {"viscosity": viscosity}, {"pressure": 0.0}, *stages)
     found = path.columns["stress_xz"][path.ends] / 1e3

@@ -32,13 +32,10 @@ def _rate(inertial_number: np.ndarray | float, pressure: float) -> np.ndarray | 
 
 
 def _steady_shear(drive: Driver, pressure: float, numbers: np.ndarray) -> Curve:
-    """A stage for each inertial number, long enough to be steady at its end."""
+    """A stage of shear, without the spin of a simple one, for each inertial number: steady at its end."""
     strain = 100 * 15.0 * pressure / _SHEAR  # an elastic stress of 15 p in each of 100 steps: the past is forgotten
     stages = [
-        {
-            "type": "simple_shear", "vertical": "constant_height", "steps": 100, "shear_strain": strain,
-            "strain_rate": _rate(number, pressure),
-        }
+        {"type": "mixed", "steps": 100, "strain": {"xz": 0.5 * strain}, "duration": strain / _rate(number, pressure)}
         for number in numbers
     ]
     path = drive(_BEADS, {"pressure": pressure}, *stages)
