@@ -145,6 +145,10 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
         integers.push_back(static_cast<std::int64_t>(next));
     archive.put("integers", std::span<const std::int64_t>(integers));
     archive.put("stage_reports", at.stage_reports);
+    const LedgerPowers& powers = dynamics.powers;
+    archive.put("ledger_powers", std::span<const double>(std::vector<double>{
+                                     powers.boundary.at_end, powers.boundary.growth, powers.friction.at_end,
+                                     powers.friction.growth, powers.collision.at_end, powers.collision.growth}));
     archive.commit();
 }
 
@@ -228,6 +232,8 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     dynamics.force_squared_per_mass = reals.at(15);
     dynamics.ledger.boundary = reals.at(16);
     dynamics.ledger.turned_over = reals.at(17);
+    const std::vector<double> powers = archive.reals("ledger_powers");
+    dynamics.powers = {{powers.at(0), powers.at(1)}, {powers.at(2), powers.at(3)}, {powers.at(4), powers.at(5)}};
     dynamics.refreshes = static_cast<std::uint64_t>(integers.at(6));
     dynamics.undamped_force = vectors(archive.reals("undamped_force"));
     parts.dynamics.restore(std::move(dynamics));

@@ -46,6 +46,7 @@ void Dynamics::start()
     sum_forces({});
     state_.ledger.boundary += kinetic_energy() + contact_.energy() - before;
     state_.force_squared_per_mass = force_squared_per_mass();
+    state_.powers = ledger_powers();
 }
 
 void Dynamics::step(const StepOptions& options)
@@ -97,14 +98,12 @@ void Dynamics::kick(double time_step)
 void Dynamics::update_ledger(double time_step)
 {
     const Points& points = model_.points;
-    const auto [kinetic, gravity, lent, stress, friction, collision] =
-        ordered_sums<6>(points.size(), [&](std::size_t i, std::array<double, 6>& sum) {
+    const auto [kinetic, gravity, lent, stress] =
+        ordered_sums<4>(points.size(), [&](std::size_t i, std::array<double, 4>& sum) {
             sum[0] += 0.5 * points.mass[i] * points.velocity[i].squaredNorm();
             sum[1] -= points.mass[i] * model_.gravity.dot(points.position[i]);
             sum[2] += points.force[i].squaredNorm() / points.mass[i];
             sum[3] += model_.stress_work[i];
-            sum[4] += contact_.friction()[i].dot(points.velocity[i]);
-            sum[5] += contact_.damping()[i].dot(points.velocity[i]);
         });
     EnergyLedger& ledger = state_.ledger;
     ledger.kinetic = kinetic;
@@ -113,11 +112,29 @@ void Dynamics::update_ledger(double time_step)
     ledger.verlet -= 0.125 * time_step * time_step * (lent - state_.force_squared_per_mass);
     state_.force_squared_per_mass = lent;
     ledger.stress_work += stress;
-    const ObstaclePower& obstacles = contact_.obstacle_power();
-    ledger.friction -= time_step * (friction - obstacles.friction);
-    ledger.collision -= time_step * (collision - obstacles.damping);
-    ledger.boundary += time_step * (obstacles.reaction + held_power_);
+    const LedgerPowers powers = ledger_powers();
+    ledger.friction -= work_of_step(state_.powers.friction, powers.friction, time_step);
+    ledger.collision -= work_of_step(state_.powers.collision, powers.collision, time_step);
+    ledger.boundary += work_of_step(state_.powers.boundary, powers.boundary, time_step);
+    state_.powers = powers;
     ledger.turned_over = std::max(ledger.turned_over, ledger.turnover());
+}
+
+LedgerPowers Dynamics::ledger_powers() const
+{
+    const Points& points = model_.points;
+    const std::vector<Vector3>&friction = contact_.friction(), &damping = contact_.damping();
+    const auto sums = ordered_sums<4>(points.size(), [&](std::size_t i, std::array<double, 4>& sum) {
+        const Vector3 acceleration = points.force[i] / points.mass[i];
+        sum[0] += friction[i].dot(points.velocity[i]);
+        sum[1] += friction[i].dot(acceleration);
+        sum[2] += damping[i].dot(points.velocity[i]);
+        sum[3] += damping[i].dot(acceleration);
+    });
+    const ObstaclePower& obstacles = contact_.obstacle_power();
+    return {{obstacles.reaction + held_power_, 0.0},
+            {sums[0] - obstacles.friction, sums[1]},
+            {sums[2] - obstacles.damping, sums[3]}};
 }
 
 void Dynamics::sum_forces(const StepOptions& options)

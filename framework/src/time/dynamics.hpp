@@ -65,6 +65,7 @@ public:
         double residual = 0.0;
         double force_scale = 0.0;            ///< that the residual is relative to [N]
         double force_squared_per_mass = 0.0; ///< sum |F|^2/m at the last evaluation [N2/kg]
+        LedgerPowers powers;                 ///< at the last evaluation
         std::uint64_t refreshes = 0;
         std::vector<Vector3> undamped_force; ///< of each point in the last damped step since start(), or none [N]
     };
@@ -104,6 +105,8 @@ private:
     /// Takes away the forces along held directions; returns the power of what holds the points against them [W].
     double hold_forces();
     double force_squared_per_mass() const;
+    /// Powers of the forces of the last evaluation, with the velocities at hand.
+    LedgerPowers ledger_powers() const;
     double kinetic_energy() const;
     double gravity_energy() const;
 

@@ -15,6 +15,28 @@ struct ArrivedEnergy {
     double gravity = 0.0; ///< -sum dm g.x
 };
 
+/// The power of a force with the velocities at the end of a step, and what the half kick of the net force there adds to
+/// it within a time dt/2.
+struct ForcePower {
+    double at_end = 0.0; ///< sum f.v [W]
+    double growth = 0.0; ///< sum f.F/m; 0 for forces on what moves at a prescribed velocity [W/s]
+};
+
+/// Work of a force in a step of velocity Verlet, (f_n + f_n+1)/2 . dt v_n+1/2 [J]: with all forces summed so, the
+/// kinetic energy and `EnergyLedger::verlet` together change by exactly that. v_n+1/2 is v_n + dt F_n/(2m) and
+/// v_n+1 - dt F_n+1/(2m).
+inline double work_of_step(const ForcePower& before, const ForcePower& after, double time_step)
+{
+    return 0.5 * time_step * (before.at_end + after.at_end + 0.5 * time_step * (before.growth - after.growth));
+}
+
+/// Powers that the works of the next step begin with.
+struct LedgerPowers {
+    ForcePower boundary;  ///< of what moves points and obstacles
+    ForcePower friction;  ///< on the slip of contacts
+    ForcePower collision; ///< of what does not come from stored energy, on the approach
+};
+
 /// Energies since the ledger was opened [J]. Each is found by its own way: kinetic and gravity from velocities and
 /// positions, the work of stress from bond stresses and rates of deformation, contact from the laws' stored energy,
 /// friction from forces and velocities. error() is then a check and not an identity.
