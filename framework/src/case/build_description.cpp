@@ -149,6 +149,11 @@ ObstacleDescription obstacle_of(const CheckedTable& table)
     return obstacle;
 }
 
+/// Unbalanced force over gravity, on the mean over a window, of what is at rest. Columns of `cases/` that have come to
+/// rest have less than 0.009, with a last grain still rolling, and 1e-5 and less after it; in the last window of their
+/// motion 0.02 to 0.2.
+constexpr double balance_at_rest = 0.01;
+
 StageDescription stage_of(const CheckedTable& table)
 {
     StageDescription stage;
@@ -165,6 +170,7 @@ StageDescription stage_of(const CheckedTable& table)
     } else {
         stage.duration = table.own.real("duration");
         stage.rest_speed = optional_real(until, "rest_speed");
+        stage.residual = optional_real(until, "residual").value_or(balance_at_rest);
     }
     for (const CheckedTable& water : table.all("water"))
         stage.water_changes.push_back(

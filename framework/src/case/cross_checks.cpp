@@ -38,10 +38,23 @@ void check_materials_of_bodies(const CheckedTable& root, Diagnostics& diagnostic
             diagnostics.warning(material.place, fmt::format("no body is made of material '{}'", material.name));
 }
 
+/// The residual of a dynamic stage is a part of the rule of rest.
+void check_rest(const CheckedTable& stage, Diagnostics& diagnostics)
+{
+    const auto* type = value_of<std::string>(stage, "type");
+    if (type == nullptr || *type != "dynamic" || stage.all("until").empty())
+        return;
+    const CheckedTable& until = stage.one("until");
+    if (until.places.contains("residual") && !until.places.contains("rest_speed"))
+        diagnostics.error(until.place_of("residual"), "a dynamic stage does not end by its residual alone",
+                          "give 'rest_speed' too: a stage ends when motion has died away and forces balance");
+}
+
 void check_stages(const CheckedTable& root, Diagnostics& diagnostics)
 {
     std::set<std::string> names;
     for (const CheckedTable& stage : root.all("stage")) {
+        check_rest(stage, diagnostics);
         const auto* name = value_of<std::string>(stage, "name");
         if (name != nullptr && name->empty())
             diagnostics.error(stage.place_of("name"), "a stage needs a name that is not empty");

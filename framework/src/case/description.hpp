@@ -149,12 +149,12 @@ struct StageDescription {
     std::string type;                      ///< "quasi_static" or "dynamic"
     std::vector<PlaneDescription> rollers; ///< frictionless walls during this stage: planes are symmetry planes, a
                                            ///< cylinder holds the radial velocity of the points beside it
-    double residual = 1e-3;                ///< quasi_static: |internal + external force|/|gravity| to reach [-]
+    double residual = 1e-3;                ///< |unbalanced force|/|gravity| to reach; dynamic: on the mean [-]
     double damping = 0.8;                  ///< quasi_static: coefficient of combined local damping [-]
     std::int64_t maximum_steps = 20000;    ///< quasi_static
     std::string response = "elastic";      ///< quasi_static: "elastic" or "full"
     double duration = 0.0;                 ///< dynamic [s]
-    std::optional<double> rest_speed;      ///< dynamic: ends early when sqrt(2 E_kin/m) of all bodies is below it [m/s]
+    std::optional<double> rest_speed;      ///< dynamic: ends early when all bodies have come to rest below it [m/s]
     std::vector<WaterChangeDescription> water_changes;
 };
 

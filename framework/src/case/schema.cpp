@@ -277,11 +277,19 @@ TableRules dynamic_rules()
          TableShape::single,
          TablePresence::defaulted,
          "What ends the stage before its duration",
-         {{Parameter::real("rest_speed", dimension::velocity,
-                           "Speed sqrt(2 E_kin/m) of a body below which it is at rest, once one could have "
-                           "fallen over its height; without gravity, or where something is driven, once one has "
-                           "moved at twice this speed")
+         {{Parameter::real(
+               "rest_speed", dimension::velocity,
+               "Mean speed of every body below which the stage may end: when its motion has died away, does "
+               "not grow and its forces balance, a time of fall over the height of the model after the "
+               "water has changed; without gravity, or where something is driven, once a body has moved "
+               "at twice this speed")
                .above(0.0)
+               .optional(),
+           Parameter::real("residual", dimension::none,
+                           "With rest_speed: norm of the unbalanced force, a mean over an eighth of that time, over "
+                           "that of gravity, below which forces balance; 0.01 when left out")
+               .above(0.0)
+               .below(1.0)
                .optional()}}}};
     return rules;
 }

@@ -16,7 +16,7 @@ namespace periporo {
 namespace {
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-constexpr const char* format = "periporo checkpoint 4";
+constexpr const char* format = "periporo checkpoint 5";
 
 std::span<const double> flat(const std::vector<Vector3>& vectors)
 {
@@ -139,7 +139,6 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
                                        static_cast<std::int64_t>(at.step),
                                        static_cast<std::int64_t>(at.next_history),
                                        at.ledger_open ? 1 : 0,
-                                       at.moved ? 1 : 0,
                                        static_cast<std::int64_t>(dynamics.refreshes)};
     for (const std::uint64_t next : at.next_output)
         integers.push_back(static_cast<std::int64_t>(next));
@@ -149,6 +148,10 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     archive.put("ledger_powers", std::span<const double>(std::vector<double>{
                                      powers.boundary.at_end, powers.boundary.growth, powers.friction.at_end,
                                      powers.friction.growth, powers.collision.at_end, powers.collision.growth}));
+    const RestCriterion::State& rest = at.rest;
+    archive.put("rest_position", flat(rest.position));
+    archive.put("rest_velocity", flat(rest.velocity));
+    archive.put("rest", std::span<const double>(std::vector<double>{rest.begun, rest.length, rest.peak, rest.last}));
     archive.commit();
 }
 
@@ -174,8 +177,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     at.step = static_cast<std::uint64_t>(integers.at(2));
     at.next_history = static_cast<std::uint64_t>(integers.at(3));
     at.ledger_open = integers.at(4) != 0;
-    at.moved = integers.at(5) != 0;
-    at.next_output.assign(integers.begin() + 7, integers.end());
+    at.next_output.assign(integers.begin() + 6, integers.end());
     at.stage_reports = archive.text("stage_reports");
     const std::vector<double> reals = archive.reals("reals");
     at.time = reals.at(0);
@@ -183,6 +185,13 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     at.time_step = reals.at(2);
     at.wall_seconds = reals.at(3);
     at.error_before = reals.at(18);
+    const std::vector<double> rest = archive.reals("rest");
+    at.rest = {vectors(archive.reals("rest_position")),
+               vectors(archive.reals("rest_velocity")),
+               rest.at(0),
+               rest.at(1),
+               rest.at(2),
+               rest.at(3)};
 
     // Families and contact candidates are those of the last refresh; their images are made again from its positions.
     model.isometries.restore(isometries(archive.reals("isometries")));
@@ -234,7 +243,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     dynamics.ledger.turned_over = reals.at(17);
     const std::vector<double> powers = archive.reals("ledger_powers");
     dynamics.powers = {{powers.at(0), powers.at(1)}, {powers.at(2), powers.at(3)}, {powers.at(4), powers.at(5)}};
-    dynamics.refreshes = static_cast<std::uint64_t>(integers.at(6));
+    dynamics.refreshes = static_cast<std::uint64_t>(integers.at(5));
     dynamics.undamped_force = vectors(archive.reals("undamped_force"));
     parts.dynamics.restore(std::move(dynamics));
 }

@@ -7,6 +7,7 @@
 #include "contact/contact_forces.hpp"
 #include "model/model.hpp"
 #include "time/dynamics.hpp"
+#include "time/rest.hpp"
 #include "time/stable_step.hpp"
 
 #include <cstdint>
@@ -31,7 +32,7 @@ struct RunPosition {
     double wall_seconds = 0.0;              ///< spent so far
     bool ledger_open = false;
     double error_before = 0.0; ///< of the energy ledger when the last quasi-static stage ended [J]
-    bool moved = false;        ///< the stage has seen motion, so that rest can end it
+    RestCriterion::State rest; ///< of the stage
     std::string stage_reports; ///< JSON of the stages that are done
 };
 

@@ -11,6 +11,8 @@ namespace periporo {
 namespace {
 
 constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+/// A time that falls short of its due by this part of it is that time: the end of a stage is a sum of other numbers.
+constexpr double round_off = 1e-12;
 
 /// All times of an output: multiples of its interval up to the end of the run, and the times it names.
 std::vector<double> times_of(const OutputDescription& output, double end)
@@ -27,7 +29,7 @@ std::vector<double> times_of(const OutputDescription& output, double end)
 } // namespace
 
 OutputSchedule::OutputSchedule(const CaseDescription& description, const PluginRegistry& registry)
-    : history_every_(description.history_every)
+    : history_every_(description.history_every), history_step_(never)
 {
     double end = 0.0;
     for (const StageDescription& stage : description.stages)
@@ -57,11 +59,10 @@ Snapshot OutputSchedule::snapshot(const Model& model, const ForceState& force_st
 void OutputSchedule::write_due(const Model& model, const ForceState& force_state, const Dynamics& dynamics,
                                RunPosition& at, const std::string& stage)
 {
-    if (at.time >= static_cast<double>(at.next_history) * history_every_) {
-        const std::vector<double> row = history_row(model, dynamics, at.time, at.time_step);
-        for (Output& output : outputs_)
-            output.writer->history(at.step, row);
-        at.next_history = static_cast<std::uint64_t>(std::floor(at.time / history_every_)) + 1;
+    const double late = at.time * (1.0 + round_off);
+    if (late >= static_cast<double>(at.next_history) * history_every_) {
+        write_history(model, dynamics, at);
+        at.next_history = static_cast<std::uint64_t>(std::floor(late / history_every_)) + 1;
     }
     at.next_output.resize(outputs_.size(), 0);
     Snapshot taken;
@@ -69,9 +70,9 @@ void OutputSchedule::write_due(const Model& model, const ForceState& force_state
     for (std::size_t o = 0; o < outputs_.size(); ++o) {
         Output& output = outputs_[o];
         std::uint64_t& next = at.next_output[o];
-        if (next >= output.times.size() || at.time < output.times[next])
+        if (next >= output.times.size() || late < output.times[next])
             continue;
-        while (next < output.times.size() && at.time >= output.times[next])
+        while (next < output.times.size() && late >= output.times[next])
             ++next;
         if (!have)
             taken = snapshot(model, force_state, at, stage);
@@ -79,6 +80,16 @@ void OutputSchedule::write_due(const Model& model, const ForceState& force_state
         output.writer->snapshot(taken);
         output.written_step = at.step;
     }
+}
+
+void OutputSchedule::write_history(const Model& model, const Dynamics& dynamics, const RunPosition& at)
+{
+    if (history_step_ == at.step)
+        return;
+    history_step_ = at.step;
+    const std::vector<double> row = history_row(model, dynamics, at.time, at.time_step);
+    for (Output& output : outputs_)
+        output.writer->history(at.step, row);
 }
 
 void OutputSchedule::write_now(const Model& model, const ForceState& force_state, const RunPosition& at,

@@ -26,6 +26,8 @@ public:
     /// Snapshots and history rows that are due at the present time of a dynamic stage.
     void write_due(const Model& model, const ForceState& force_state, const Dynamics& dynamics, RunPosition& at,
                    const std::string& stage);
+    /// A history row by every writer now, whatever the schedule; not twice for one step.
+    void write_history(const Model& model, const Dynamics& dynamics, const RunPosition& at);
     /// A snapshot by every writer now, whatever the schedule; not twice for one step.
     void write_now(const Model& model, const ForceState& force_state, const RunPosition& at, const std::string& stage);
     /// Everything so far to the disk, before a checkpoint claims it.
@@ -43,6 +45,7 @@ private:
 
     std::vector<Output> outputs_;
     double history_every_;
+    std::uint64_t history_step_; ///< of the last history row
     SnapshotFields fields_;
 };
 

@@ -20,20 +20,34 @@ bool is_driven(const Model& model, const CaseDescription& description, const Sta
            });
 }
 
-} // namespace
-
-double time_to_get_going(const Model& model, const CaseDescription& description, const StageDescription& stage)
+/// Time of a free fall over the height of the model [s].
+double time_of_fall(const Model& model, const Vector3& gravity)
 {
-    const double g = description.gravity.norm();
-    if (!(g > 0.0) || is_driven(model, description, stage))
-        return INFINITY;
+    const double g = gravity.norm();
     double lowest = INFINITY, highest = -INFINITY;
     for (const Vector3& x : model.points.initial_position) {
-        const double height = -x.dot(description.gravity) / g;
+        const double height = -x.dot(gravity) / g;
         lowest = std::min(lowest, height);
         highest = std::max(highest, height);
     }
-    return std::sqrt(2.0 * (highest - lowest) / g);
+    return std::sqrt(2.0 * std::max(highest - lowest, model.spacing) / g);
+}
+
+} // namespace
+
+RestRule rest_rule(const Model& model, const CaseDescription& description, const StageDescription& stage, double from)
+{
+    constexpr double windows_of_fall = 8.0, spacings_of_window = 0.1;
+    RestRule rule{stage.rest_speed.value(), stage.residual, 0.0, from, INFINITY};
+    if (!(description.gravity.norm() > 0.0)) {
+        rule.window = spacings_of_window * model.spacing / rule.speed;
+        return rule;
+    }
+    const double fall = time_of_fall(model, description.gravity);
+    rule.window = fall / windows_of_fall;
+    if (!is_driven(model, description, stage))
+        rule.believed_from = from + fall;
+    return rule;
 }
 
 } // namespace periporo

@@ -11,12 +11,12 @@
 #include "scheduler/rest.hpp"
 #include "scheduler/summary.hpp"
 #include "scheduler/vertical_stress.hpp"
+#include "time/next_step.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <optional>
 
 namespace periporo {
 namespace {
@@ -147,7 +147,7 @@ void Simulation::begin_stage()
 {
     const StageDescription& stage = description_.stages[at_.stage];
     at_.stage_step = 0;
-    at_.moved = false;
+    at_.rest = {};
     at_.stage_start = at_.time;
     check_rollers(model_, stage);
     enter_stage(stage);
@@ -184,6 +184,7 @@ void Simulation::end_stage()
                           {"steps", at_.stage_step},
                           {"time_step", at_.time_step},
                           {"end_time", at_.time},
+                          {"ended", stage_end_},
                           {"residual", dynamics_.residual()},
                           {"mean_speed", dynamics_.mean_speed()}};
     if (is_quasi_static(stage)) {
@@ -202,12 +203,13 @@ void Simulation::end_stage()
         if (stage.response == "elastic")
             initialize_materials(model_, *force_state_);
     } else {
+        outputs_.write_history(model_, dynamics_, at_);
         outputs_.write_now(model_, *force_state_, at_, stage.name);
     }
     reports_.push_back(report);
     report_contacts();
-    log_->info("stage '{}' ended: {} steps, residual {:.2e}, mean speed {:.2e} m/s", stage.name, at_.stage_step,
-               dynamics_.residual(), dynamics_.mean_speed());
+    log_->info("stage '{}' ended, {}: {} steps, residual {:.2e}, mean speed {:.2e} m/s", stage.name, stage_end_,
+               at_.stage_step, dynamics_.residual(), dynamics_.mean_speed());
     if (is_quasi_static(stage)) {
         std::fill(model_.points.velocity.begin(), model_.points.velocity.end(), Vector3::Zero());
         at_.error_before = at_.ledger_open ? dynamics_.ledger().error() - dynamics_.ledger().kinetic : 0.0;
@@ -259,17 +261,20 @@ bool Simulation::contact_asks_for_shorter_step()
     return contact_.is_sharper(model_, allowed / at_.time_step);
 }
 
-void Simulation::take_step(const StepOptions& options)
+void Simulation::take_step(const StepOptions& options, std::optional<double> end)
 {
     const bool check_due = at_.stage_step > 0 && at_.stage_step % steps_per_check == 0;
     dynamics_.times().time(Phase::step_estimate, [&] {
         if (check_due || contact_asks_for_shorter_step())
             renew_step();
     });
+    const NextStep next = end ? next_step(at_.time, *end, at_.time_step) : NextStep{at_.time_step, false};
     StepOptions with_step = options;
-    with_step.time_step = at_.time_step;
-    dynamics_.book(water_.follow(model_, at_.time + at_.time_step - at_.stage_start));
+    with_step.time_step = next.length;
+    dynamics_.book(water_.follow(model_, at_.time + next.length - at_.stage_start));
     dynamics_.step(with_step);
+    if (end)
+        at_.time = next.last ? *end : at_.time + next.length;
     ++at_.stage_step;
     ++at_.step;
     ++steps_here_;
@@ -299,31 +304,32 @@ bool Simulation::quasi_static(const StageDescription& stage)
         if (stop_here())
             return false;
     }
+    stage_end_ = "in equilibrium";
     return true;
 }
 
 bool Simulation::dynamic(const StageDescription& stage)
 {
     const double end = at_.stage_start + stage.duration;
-    const double stands_from = at_.stage_start + water_.last_change() + time_to_get_going(model_, description_, stage);
+    std::optional<RestCriterion> rest;
+    if (stage.rest_speed)
+        rest.emplace(rest_rule(model_, description_, stage, at_.stage_start + water_.last_change()), at_.rest);
+    stage_end_ = "duration over";
     while (at_.time < end) {
-        take_step({});
-        at_.time += at_.time_step;
+        take_step({}, end);
         dynamics_.times().time(Phase::output,
                                [&] { outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name); });
         progress_.update([&] { return stage_line((at_.time - at_.stage_start) / stage.duration); });
-        if (stage.rest_speed) {
-            // What starts from rest comes to rest only after gravity had the time to move it, or what drives it has. A
-            // twitch at the beginning, as of points whose hold is taken away, is not yet the motion that is awaited.
-            const double speed = dynamics_.mean_speed();
-            at_.moved = at_.moved || speed > 2.0 * *stage.rest_speed;
-            const bool may_end = std::isfinite(stands_from) ? at_.time > stands_from : at_.moved && water_.settled();
-            if (may_end && speed < *stage.rest_speed)
-                break;
+        if (rest && rest->follow(model_, at_.time, dynamics_.acceleration_scale())) {
+            stage_end_ = "at rest";
+            return true;
         }
-        if (stop_here())
+        // A stage that is over is not interrupted: what is written at its end is written once.
+        if (at_.time < end && stop_here())
             return false;
     }
+    if (rest)
+        stage_end_ += fmt::format(", still moving at {:.3g} mm/s", 1e3 * dynamics_.mean_speed());
     return true;
 }
 

@@ -19,6 +19,7 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <spdlog/logger.h>
 #include <string>
 
@@ -47,7 +48,8 @@ private:
     void renew_step();
     /// Does a contact, present or soon to begin, need a shorter step than that of the last estimate?
     bool contact_asks_for_shorter_step();
-    void take_step(const StepOptions& options);
+    /// @param end of a dynamic stage, which no step may overrun [s]; none: time stands still
+    void take_step(const StepOptions& options, std::optional<double> end = {});
     /// Stops the run when points are lost, or speed or energy come from nowhere.
     void check_motion();
     bool stop_here();
@@ -69,6 +71,7 @@ private:
     Dynamics dynamics_;
     FrequencyEstimate frequency_;
     RunPosition at_;
+    std::string stage_end_; ///< why the stage that has just ended did
     OutputSchedule outputs_;
     Progress progress_;
     InterruptionGuard interruption_;

@@ -147,6 +147,7 @@ TEST_CASE("boundaries, contacts, stages and outputs keep their order and values"
     CHECK(read.stages[0].response == "full");
     CHECK(read.stages[1].duration == 0.5);
     CHECK(read.stages[1].rest_speed == 0.005);
+    CHECK(read.stages[1].residual == 0.01);
     REQUIRE(read.outputs.size() == 1);
     CHECK(read.outputs[0].writer.name == "test_writer");
     CHECK(read.outputs[0].every == 0.01);

@@ -112,8 +112,8 @@ TEST_CASE("keys of quasi-static stages are refused in dynamic ones")
 
 TEST_CASE("a stage cannot wait for what its type does not know")
 {
-    const std::string dynamic = minimal_case + "until = { residual = 1e-3 }\n";
-    CHECK(place_of(error_of(dynamic)) == place_in(dynamic, "residual"));
+    const std::string dynamic = minimal_case + "until = { residual = 1e-3 }\n"; // without a rest speed
+    CHECK(place_of(error_of(dynamic)) == place_in(dynamic, "1e-3 }"));
     const std::string settling = with(minimal_case, "type = \"dynamic\"\nduration = \"0.5 s\"",
                                       "type = \"quasi_static\"\nuntil = { rest_speed = \"1 mm/s\" }");
     CHECK(place_of(error_of(settling)) == place_in(settling, "rest_speed"));
