@@ -6,26 +6,37 @@
 
 #include "periporo/tensor.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 namespace periporo {
 
-/// A point's volume, its weight in all sums, does not grow beyond this multiple of its initial one; what opens further
-/// is a gap between grains and not soil. J itself goes on, so that the gap must close before the volume shrinks.
-/// Without the bound single grains of a thin rim reached J = 7, their stiffness grew with it, and the stable step fell.
-/// Soil of porosity 0.2 that opens by a quarter has one of 0.36, that of loose sand. With a bound of 2 the deposit of
-/// the quickstart is the same and takes an eighth more steps.
+/// The volume of a point, its weight in all sums, does not grow beyond this multiple of its initial one. A body that
+/// opens further has a gap between its grains, and a gap is not soil: it has no stiffness and no weight in a sum. J
+/// itself goes on, so that the gap must close before the volume shrinks. Without the bound the stiffness of single
+/// grains of a thin rim grows with J, and the stable step falls. Soil of porosity 0.2 that opens by a quarter has one
+/// of 0.36, that of loose sand.
 inline constexpr double largest_volume_ratio = 1.25;
+
+/// V/V0 of a point: J, but never less than what its grains fill, 1 - phi0, and never more than largest_volume_ratio. A
+/// material without pores (phi0 = 0) has no lower bound: its compression is that of the grains.
+/// @param jacobian J [-]
+/// @param porosity phi0 of the body [-]
+inline double volume_ratio(double jacobian, double porosity)
+{
+    const double grains = porosity > 0.0 ? 1.0 - porosity : 0.0;
+    return std::clamp(jacobian, grains, largest_volume_ratio);
+}
 
 struct Points {
     std::vector<Vector3> position;         ///< x [m]
     std::vector<Vector3> velocity;         ///< v, at full steps [m/s]
     std::vector<Vector3> force;            ///< total force at the last evaluation [N]
     std::vector<Vector3> initial_position; ///< X at the start of the run [m]
-    std::vector<double> volume;            ///< current V = V0 min(J, largest_volume_ratio) [m3]
+    std::vector<double> volume;            ///< current V = V0 volume_ratio(J, phi0) [m3]
     std::vector<double> initial_volume;    ///< V0 [m3]
-    std::vector<double> jacobian;          ///< J, from J' = J tr L [-]
+    std::vector<double> jacobian;          ///< J, from J' = J tr L and the occupied volume [-]
     std::vector<double> mass;              ///< of grains and water; changes with the water only [kg]
     std::vector<double> suction;           ///< s >= 0 [Pa]
     std::vector<double> saturation;        ///< S_r [-]

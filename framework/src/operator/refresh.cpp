@@ -3,6 +3,7 @@
 //
 #include "operator/refresh.hpp"
 
+#include "operator/occupied_volume.hpp"
 #include "operator/transpose.hpp"
 #include "time/ordered_sum.hpp"
 
@@ -263,6 +264,7 @@ void refresh_families(Model& model, const ForceState& force_state, std::span<con
     }
     hand_out_point_variables(model);
     model.update_records();
+    follow_occupied_volume(model, families_before);
 }
 
 double displacement_since_refresh(const Model& model)

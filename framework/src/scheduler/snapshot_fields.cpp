@@ -35,6 +35,31 @@ void SnapshotFields::add_integer(std::string name, std::string description, std:
     fields_.push_back({std::move(name), "-", std::move(description), 1, {}, integers_.back()});
 }
 
+void SnapshotFields::add_volumes(const Model& model)
+{
+    const Points& points = model.points;
+    const std::size_t n = model.size();
+    fields_.push_back({"volume",
+                       "m3",
+                       "V, volume of the soil of the point: its weight in the sums of the operator",
+                       1,
+                       points.volume,
+                       {}});
+    std::vector<double> ratio(n), gap(n), density(n), porosity(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        ratio[i] = points.volume[i] / points.initial_volume[i];
+        gap[i] = std::max(0.0, points.jacobian[i] - ratio[i]);
+        density[i] = points.mass[i] / points.volume[i];
+        porosity[i] = porosity_of(model, i);
+    }
+    add_real("volume_ratio", "-", "V/V0, current over initial volume of the soil; 1 - phi0 to 1.25", 1,
+             std::move(ratio));
+    add_real("gap_ratio", "-", "volume of gaps between grains over V0: J - V/V0 where J > 1.25, else 0", 1,
+             std::move(gap));
+    add_real("density", "kg/m3", "mass of grains and water over V", 1, std::move(density));
+    add_real("porosity", "-", "phi = 1 - (1 - phi0) V0/V", 1, std::move(porosity));
+}
+
 const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const ForceState& force_state)
 {
     const Points& points = model.points;
@@ -50,16 +75,7 @@ const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const 
             displacement[3 * i + c] = points.position[i][static_cast<Eigen::Index>(c)] -
                                       points.initial_position[i][static_cast<Eigen::Index>(c)];
     add_real("displacement", "m", "position minus position at the start of the run", 3, std::move(displacement));
-    fields_.push_back({"volume", "m3", "volume of the point in the sums of the operator", 1, points.volume, {}});
-    fields_.push_back({"volume_ratio", "-", "J, current over initial volume", 1, points.jacobian, {}});
-    std::vector<double> density(n);
-    for (std::size_t i = 0; i < n; ++i)
-        density[i] = points.mass[i] / points.volume[i];
-    add_real("density", "kg/m3", "mass over current volume, that of grains and water", 1, std::move(density));
-    std::vector<double> porosity(n);
-    for (std::size_t i = 0; i < n; ++i)
-        porosity[i] = porosity_of(model, i);
-    add_real("porosity", "-", "phi = 1 - (1 - phi0) V0/V", 1, std::move(porosity));
+    add_volumes(model);
 
     std::vector<double> states = model.point_state;
     mean_point_states(model, force_state, states);

@@ -25,6 +25,8 @@ private:
     void add_real(std::string name, std::string unit, std::string description, std::size_t components,
                   std::vector<double> values);
     void add_integer(std::string name, std::string description, std::vector<std::int64_t> values);
+    /// Volume, density and porosity of the points.
+    void add_volumes(const Model& model);
 
     std::vector<std::vector<double>> reals_;
     std::vector<std::vector<std::int64_t>> integers_;

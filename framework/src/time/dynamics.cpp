@@ -91,7 +91,7 @@ void Dynamics::kick(double time_step)
         points.velocity[i] += 0.5 * time_step / points.mass[i] * points.force[i];
         const double dilation = model_.volume_rate[i];
         points.jacobian[i] *= (1.0 + 0.5 * dilation) / (1.0 - 0.5 * dilation);
-        points.volume[i] = points.initial_volume[i] * std::min(points.jacobian[i], largest_volume_ratio);
+        points.volume[i] = points.initial_volume[i] * volume_ratio(points.jacobian[i], model_.body_of(i).porosity);
     }
 }
 
