@@ -50,7 +50,9 @@ TEST_CASE("one and two threads end at the same bits, for every force state")
     const ProgramFolder folder;
     for (const std::string state : {"energy_conjugate", "volume_weighted", "bond_projection"}) {
         CAPTURE(state);
-        const std::string run = coarse + "--set 'operator.force_state=" + state + "' --quiet --overwrite ";
+        const std::string run = coarse + "--set 'operator.force_state=" + state + "' --quiet --overwrite " +
+                                R"(--set 'body.column.water={ type = "hydrostatic", water_table = "z = 55 mm", )" +
+                                R"(saturation = 0.3 }' )";
         REQUIRE(folder.run(run + "--threads 1 --out one").status == 0);
         REQUIRE(folder.run(run + "--threads 2 --out two").status == 0);
         CHECK(differences(results(folder.path() / "one/results.h5"), results(folder.path() / "two/results.h5")) ==
@@ -61,10 +63,10 @@ TEST_CASE("one and two threads end at the same bits, for every force state")
 TEST_CASE("a run stopped three times, at first while it settles, and resumed ends at the same bits as one that was "
           "never stopped")
 {
-    // the column is wet, settles for long, and dries while it collapses
+    // the column is half under water, settles for long, and the water falls while it collapses
     const std::string drying =
         coarse + R"(--set 'stage.0.until.residual=1e-9' )" +
-        R"(--set 'body.column.water={ type = "uniform", suction = "1 kPa", saturation = 0.3 }' )" +
+        R"(--set 'body.column.water={ type = "hydrostatic", water_table = "z = 55 mm", saturation = 0.3 }' )" +
         R"(--set 'stage.1.water=[{ body = "column", type = "uniform", suction = "2 kPa", saturation = 0.1, )" +
         R"(over = "150 ms" }]' )";
     const ProgramFolder folder;

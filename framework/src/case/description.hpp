@@ -7,6 +7,7 @@
 #include "periporo/parameters.hpp"
 #include "periporo/tensor.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -58,12 +59,12 @@ struct PlaneDescription {
     double offset = 0.0; ///< position or radius [m]
 };
 
-/// The water in the pores of a body. "Dry", S_r = 0 and s = 0, is a state of its own: the curve of a material gives
-/// S_r = 1 at s = 0.
+/// The water in the pores of a body, and around it below a water table. "Dry", S_r = 0 and s = 0, is a state of its
+/// own: the curve of a material gives S_r = 1 at s = 0.
 struct WaterDescription {
     std::string type = "dry";         ///< or "uniform", "hydrostatic" or "field"
     double suction = 0.0;             ///< uniform: s >= 0 [Pa]
-    PlaneDescription water_table;     ///< hydrostatic: where s = 0
+    PlaneDescription water_table;     ///< hydrostatic: where the pore pressure is zero
     std::optional<double> largest;    ///< hydrostatic: bound on s [Pa]
     std::string file;                 ///< field: CSV of places and suctions
     std::optional<double> saturation; ///< S_r, of a material without a curve [-]
@@ -195,5 +196,11 @@ struct CaseDescription {
     std::string resolved; ///< the whole case as TOML, reproducing the run by itself
     std::vector<std::string> warnings;
 };
+
+/// The material of a body.
+inline const MaterialDescription& material_of(const CaseDescription& description, const BodyDescription& body)
+{
+    return *std::ranges::find(description.materials, body.material, &MaterialDescription::name);
+}
 
 } // namespace periporo

@@ -116,21 +116,25 @@ TableRules initial_stress_rules()
 /// The water of a body, or what it becomes: then `further` says of which body and how.
 TableRules water_rules(std::vector<Parameter> further = {})
 {
-    const Parameter saturation = Parameter::real("saturation", dimension::none,
-                                                 "Degree of saturation S_r, of a material without a retention curve")
-                                     .at_least(0.0)
-                                     .at_most(1.0)
-                                     .optional();
-    TableRules rules{{Parameter::text("type", "Where the suction comes from")
+    const Parameter saturation =
+        Parameter::real("saturation", dimension::none,
+                        "Degree of saturation S_r, of a material without a retention curve; 1 below a "
+                        "water table")
+            .at_least(0.0)
+            .at_most(1.0)
+            .optional();
+    TableRules rules{{Parameter::text("type", "Where the pore pressure comes from")
                           .one_of({"dry", "uniform", "hydrostatic", "field"})
                           .by_default("dry")}};
     for (Parameter& parameter : further)
         rules.parameters.push_back(std::move(parameter));
-    TableRules hydrostatic{{Parameter::text("water_table", "Plane of zero suction, \"z = -2 m\""),
-                            Parameter::real("largest_suction", dimension::pressure, "Suction that is nowhere exceeded")
-                                .above(0.0)
-                                .optional(),
-                            saturation}};
+    TableRules hydrostatic{
+        {Parameter::text("water_table",
+                         "Plane of zero pore pressure, \"z = -2 m\": suction above, standing water below"),
+         Parameter::real("largest_suction", dimension::pressure, "Suction that is nowhere exceeded")
+             .above(0.0)
+             .optional(),
+         saturation}};
     hydrostatic.planes = {"water_table"};
     rules.selector = "type";
     rules.variants = {

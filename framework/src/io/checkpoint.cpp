@@ -7,6 +7,7 @@
 #include "operator/refresh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <span>
 #include <stdexcept>
@@ -16,7 +17,7 @@ namespace periporo {
 namespace {
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-constexpr const char* format = "periporo checkpoint 5";
+constexpr const char* format = "periporo checkpoint 6";
 
 std::span<const double> flat(const std::vector<Vector3>& vectors)
 {
@@ -80,6 +81,20 @@ void copy_checked(const std::vector<typename Vector::value_type>& from, Vector& 
     std::copy(from.begin(), from.end(), to.begin());
 }
 
+/// The lists of a course of water, by name.
+auto named_parts(auto& water)
+{
+    return std::array{std::pair{"pressure_before", &water.pressure_before},
+                      std::pair{"saturation_before", &water.saturation_before},
+                      std::pair{"pressure_after", &water.pressure_after},
+                      std::pair{"saturation_after", &water.saturation_after},
+                      std::pair{"soaked", &water.soaked},
+                      std::pair{"level_before", &water.level_before},
+                      std::pair{"level_after", &water.level_after},
+                      std::pair{"lowest", &water.lowest},
+                      std::pair{"done", &water.done}};
+}
+
 } // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case)
@@ -117,15 +132,14 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     archive.put("deepest_overlap", std::span<const double>(parts.contact.deepest_overlap()));
     archive.put("frequency_mode", flat(parts.frequency.mode()));
     archive.put("mass", std::span<const double>(points.mass));
-    archive.put("suction", std::span<const double>(points.suction));
+    archive.put("pore_pressure", std::span<const double>(points.pore_pressure));
     archive.put("saturation", std::span<const double>(points.saturation));
-    archive.put("suction_before", std::span<const double>(parts.water.suction_before));
-    archive.put("saturation_before", std::span<const double>(parts.water.saturation_before));
-    archive.put("suction_after", std::span<const double>(parts.water.suction_after));
-    archive.put("saturation_after", std::span<const double>(parts.water.saturation_after));
+    for (const auto& [name, values] : named_parts(parts.water))
+        archive.put(name, std::span<const double>(*values));
 
     const Dynamics::State& dynamics = parts.dynamics.state();
     archive.put("undamped_force", flat(dynamics.undamped_force));
+    archive.put("buoyancy", std::span<const double>(dynamics.buoyancy));
     const EnergyLedger& ledger = dynamics.ledger;
     const std::vector<double> reals{
         at.time,           at.stage_start,       at.time_step,       at.wall_seconds,
@@ -200,10 +214,10 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     copy_checked(archive.reals("volume"), points.volume, "volume");
     copy_checked(archive.reals("jacobian"), points.jacobian, "J");
     copy_checked(archive.reals("mass"), points.mass, "mass");
-    copy_checked(archive.reals("suction"), points.suction, "suction");
+    copy_checked(archive.reals("pore_pressure"), points.pore_pressure, "pore pressure");
     copy_checked(archive.reals("saturation"), points.saturation, "saturation");
-    parts.water = {archive.reals("suction_before"), archive.reals("saturation_before"), archive.reals("suction_after"),
-                   archive.reals("saturation_after")};
+    for (const auto& [name, values] : named_parts(parts.water))
+        *values = archive.reals(name);
     const Families::Kept kept{numbers(archive.bytes("family_counts")), numbers(archive.bytes("family_neighbours")),
                               numbers(archive.bytes("apart_counts")), numbers(archive.bytes("apart_neighbours"))};
     find_first_families(model, parts.force_state, &kept);
@@ -245,6 +259,7 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
     dynamics.powers = {{powers.at(0), powers.at(1)}, {powers.at(2), powers.at(3)}, {powers.at(4), powers.at(5)}};
     dynamics.refreshes = static_cast<std::uint64_t>(integers.at(5));
     dynamics.undamped_force = vectors(archive.reals("undamped_force"));
+    dynamics.buoyancy = archive.reals("buoyancy");
     parts.dynamics.restore(std::move(dynamics));
 }
 

@@ -108,7 +108,7 @@ void Model::update_records()
 #pragma omp parallel for schedule(static) reduction(|| : some_water)
     for (std::size_t i = 0; i < n; ++i) {
         store(i, points.position[i], points.velocity[i], points.volume[i]);
-        some_water = some_water || points.suction[i] != 0.0 || points.saturation[i] != 0.0;
+        some_water = some_water || points.pore_pressure[i] != 0.0 || points.saturation[i] != 0.0;
     }
     wet = some_water;
 #pragma omp parallel for schedule(static)

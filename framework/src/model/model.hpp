@@ -13,6 +13,7 @@
 #include "model/points.hpp"
 #include "periporo/material.hpp"
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,7 +29,10 @@ struct Body {
     /// Pieces of the body that come nearer than this are one at once; 0 where a contact law holds pieces apart
     /// [spacings].
     double joining_distance = 1.0;
+    /// Height along -gravity of the surface of the water that stands around it; minus infinity: none does [m].
+    double water_level = -std::numeric_limits<double>::infinity();
 
+    bool has_standing_water() const { return water_level > -std::numeric_limits<double>::infinity(); }
     /// Rows of a bond: six of stress, then the state variables.
     std::size_t rows() const { return 6 + material->state_variables().size(); }
 };

@@ -29,6 +29,12 @@ inline double volume_ratio(double jacobian, double porosity)
     return std::clamp(jacobian, grains, largest_volume_ratio);
 }
 
+/// Suction s >= 0 of a pore pressure, compression positive [Pa].
+inline double suction_of(double pore_pressure)
+{
+    return std::max(0.0, -pore_pressure);
+}
+
 struct Points {
     std::vector<Vector3> position;         ///< x [m]
     std::vector<Vector3> velocity;         ///< v, at full steps [m/s]
@@ -38,12 +44,13 @@ struct Points {
     std::vector<double> initial_volume;    ///< V0 [m3]
     std::vector<double> jacobian;          ///< J, from J' = J tr L and the occupied volume [-]
     std::vector<double> mass;              ///< of grains and water; changes with the water only [kg]
-    std::vector<double> suction;           ///< s >= 0 [Pa]
+    std::vector<double> pore_pressure;     ///< p, compression positive; suction is -p above the water table [Pa]
     std::vector<double> saturation;        ///< S_r [-]
     std::vector<std::uint32_t> body;       ///< index of the body
     std::vector<std::int64_t> id;          ///< number given by the geometry, body by body
 
     std::size_t size() const { return position.size(); }
+    double suction(std::size_t point) const { return suction_of(pore_pressure[point]); } ///< [Pa]
 
     void resize(std::size_t n)
     {
@@ -55,16 +62,27 @@ struct Points {
         initial_volume.resize(n);
         jacobian.resize(n, 1.0);
         mass.resize(n);
-        suction.resize(n);
+        pore_pressure.resize(n);
         saturation.resize(n);
         body.resize(n);
         id.resize(n);
     }
 };
 
-/// Suction [Pa] and saturation [-] of each point before and after the changes of a stage.
+/// How the water of points and bodies changes in a stage.
 struct WaterCourse {
-    std::vector<double> suction_before, saturation_before, suction_after, saturation_after;
+    // of each point out of standing water, before and after the changes of the stage
+    std::vector<double> pressure_before; ///< signed as Points::pore_pressure [Pa]
+    std::vector<double> saturation_before;
+    std::vector<double> pressure_after;
+    std::vector<double> saturation_after;
+    /// Largest share of the cell of a point that was under water, since the water of its body last changed [-].
+    std::vector<double> soaked;
+    // of each body
+    std::vector<double> level_before; ///< of standing water, height along -gravity; minus infinity: none [m]
+    std::vector<double> level_after;
+    std::vector<double> lowest; ///< height of the bottom of the body when its change began [m]
+    std::vector<double> done;   ///< share of the change that is done [-]
 };
 
 } // namespace periporo

@@ -23,7 +23,7 @@ void gather_water(const Model& model, std::size_t point, const std::uint32_t* ne
     const Points& points = model.points;
     for (std::size_t b = 0; b < packs * pack_width; ++b) {
         const std::uint32_t other = model.families.parent(neighbours[b]);
-        workspace.suction[b] = 0.5 * (points.suction[point] + points.suction[other]);
+        workspace.suction[b] = 0.5 * (points.suction(point) + points.suction(other));
         workspace.saturation[b] = 0.5 * (points.saturation[point] + points.saturation[other]);
     }
 }

@@ -9,6 +9,7 @@
 #include "operator/force_state.hpp"
 #include "operator/transpose.hpp"
 #include "periporo/material_law.hpp"
+#include "water/pore_stress.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -123,7 +124,7 @@ public:
     MaterialStatus update();
 
     struct Outcome {
-        SymmetricTensor<Pack> stress; ///< total, sigma' + S_r s 1; zero in inactive lanes [Pa]
+        SymmetricTensor<Pack> stress; ///< sigma' + pore_stress() 1; zero in inactive lanes [Pa]
         Pack work;                    ///< `advance`: mean of old and new stress : D dt [J/m3], else stress : D [W/m3]
         Pack dilation;                ///< `advance`: tr D dt [-], else 0
     };
@@ -141,8 +142,9 @@ public:
         }
         SymmetricTensor<Pack> water;
         if (wet_)
-            water = SymmetricTensor<Pack>::isotropic(load_pack(workspace_.suction.data() + pack * pack_width) *
-                                                     load_pack(workspace_.saturation.data() + pack * pack_width));
+            water = SymmetricTensor<Pack>::isotropic(
+                pore_stress(load_pack(workspace_.suction.data() + pack * pack_width),
+                            load_pack(workspace_.saturation.data() + pack * pack_width)));
         const SymmetricTensor<Pack> stress = load_symmetric(state_ + pack * rows_ * pack_width);
         outcome.stress = select(active, stress + water, SymmetricTensor<Pack>{});
         if (evaluation_.stress == StressUpdate::keep) {

@@ -10,6 +10,8 @@
 #include "plugins/fit_contact.hpp"
 #include "scheduler/geometries.hpp"
 #include "scheduler/held_points.hpp"
+#include "water/overburden.hpp"
+#include "water/pore_stress.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -79,7 +81,6 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
     const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
     Points& points = built.model.points;
     const MaterialDescription& material = material_of(description, body);
-    const std::size_t first = points.size();
     Vector3 centre = Vector3::Zero();
     for (std::size_t p = 0; p < cloud.positions.size(); ++p)
         centre += cloud.volumes[p] / filled * cloud.positions[p];
@@ -109,9 +110,6 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
                                             body.name, cut, cloud.positions.size()));
     built.model.bodies.push_back({body.name, make_material(description, body, registry),
                                   body.initial_stress.overconsolidation_ratio, material.porosity});
-    built.water.begin_body(built.model, index, first);
-    for (std::size_t i = first; i < points.size(); ++i)
-        points.mass[i] = mixture_density(material, points.saturation[i]) * points.volume[i];
 }
 
 void add_obstacles(BuiltModel& built, const CaseDescription& description, Geometries& geometries)
@@ -183,8 +181,7 @@ void order_along_curve(Points& points, double spacing)
     apply(points.volume);
     apply(points.initial_volume);
     apply(points.jacobian);
-    apply(points.mass);
-    apply(points.suction);
+    apply(points.pore_pressure);
     apply(points.saturation);
     apply(points.body);
     apply(points.id);
@@ -197,16 +194,6 @@ std::shared_ptr<const Material> make_material(const CaseDescription& description
 {
     const PluginChoice& model = material_of(description, body).model;
     return registry.make_material(model.name, model.parameters);
-}
-
-const MaterialDescription& material_of(const CaseDescription& description, const BodyDescription& body)
-{
-    return *std::ranges::find(description.materials, body.material, &MaterialDescription::name);
-}
-
-double mixture_density(const MaterialDescription& material, double saturation)
-{
-    return material.grain_density * (1.0 - material.porosity) + saturation * material.porosity * water_density;
 }
 
 BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry,
@@ -223,6 +210,7 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
         add_body(built, description, b, registry, geometries, progress);
     add_obstacles(built, description, geometries);
     order_along_curve(model.points, model.spacing);
+    built.water.begin(model);
     model.allocate();
     for (const HeldRegionDescription& region : description.held_regions) {
         built.held_regions.push_back(points_of_region(model, region, geometries));
@@ -287,22 +275,24 @@ void set_initial_stress(Model& model, const ForceState& force_state, const CaseD
 {
     const double g = model.gravity.norm();
     const Vector3 up = g > 0.0 ? Vector3(-model.gravity / g) : Vector3::UnitZ();
-    std::vector<double> top(model.bodies.size(), -std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < model.size(); ++i) {
-        double& height = top[model.points.body[i]];
-        height = std::max(height, model.points.position[i].dot(up) + 0.5 * model.spacing);
-    }
+    std::vector<Overburden> overburden;
+    for (std::uint32_t body = 0; body < model.bodies.size(); ++body)
+        overburden.emplace_back(model, body);
+    const Points& points = model.points;
     for (std::size_t i = 0; i < model.size(); ++i) {
         const InitialStressDescription& initial = description.bodies[model.points.body[i]].initial_stress;
         if (initial.type != "geostatic")
             continue;
         const HeldBonds held = model.held(i);
-        const double unit_weight = model.points.mass[i] / model.points.volume[i] * g;
+        const Overburden& above = overburden[points.body[i]];
         for (std::size_t h = 0; h < held.count; ++h) {
             const NeighbourRecord& other = model.records[held.neighbours[h]];
             const Vector3 middle = 0.5 * (model.points.position[i] + other.x());
-            const double depth = std::max(0.0, top[model.points.body[i]] - middle.dot(up));
-            const double vertical = -unit_weight * depth - model.points.saturation[i] * model.points.suction[i];
+            const double depth = std::max(0.0, above.top() - middle.dot(up));
+            const std::size_t j = model.families.parent(held.neighbours[h]);
+            const double water = pore_stress(0.5 * (points.suction(i) + points.suction(j)),
+                                             0.5 * (points.saturation[i] + points.saturation[j]));
+            const double vertical = -above.at(depth, i) - water;
             const double lateral = initial.lateral_coefficient * vertical;
             const Eigen::Matrix3d stress =
                 lateral * Eigen::Matrix3d::Identity() + (vertical - lateral) * up * up.transpose();

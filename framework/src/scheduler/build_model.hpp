@@ -9,7 +9,7 @@
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
 #include "plugins/registry.hpp"
-#include "scheduler/water.hpp"
+#include "water/water.hpp"
 
 #include <functional>
 #include <memory>
@@ -21,12 +21,6 @@ namespace periporo {
 /// The material of a body of the case, made by its plugin.
 std::shared_ptr<const Material> make_material(const CaseDescription& description, const BodyDescription& body,
                                               const PluginRegistry& registry);
-
-/// The material of a body as the case describes it.
-const MaterialDescription& material_of(const CaseDescription& description, const BodyDescription& body);
-
-/// rho = rho_s (1 - phi0) + S_r phi0 rho_w [kg/m3].
-double mixture_density(const MaterialDescription& material, double saturation);
 
 struct BuiltModel {
     Model model;
@@ -52,7 +46,8 @@ std::vector<Isometry> image_generators(const CaseDescription& description, const
 void set_obstacles(Model& model, const CaseDescription& description, const StageDescription& stage);
 
 /// Initial effective stress of all bonds (tension-positive, from the depth of the middle of the bond below the top of
-/// its body: sigma_v = -rho g depth - S_r s, sigma_h = K0 sigma_v) and the state of the materials that goes with it.
+/// its body: sigma_v = -(weight less buoyancy above, over the area) - S_r s, sigma_h = K0 sigma_v) and the state of the
+/// materials that goes with it.
 void set_initial_stress(Model& model, const ForceState& force_state, const CaseDescription& description);
 
 /// State variables of all bonds from their stress and the overconsolidation ratio of the body.

@@ -5,6 +5,7 @@
 
 #include "operator/dispersion.hpp"
 #include "scheduler/build_model.hpp"
+#include "water/mixture.hpp"
 
 #include <fmt/format.h>
 

@@ -8,6 +8,7 @@
 #include "scheduler/progress.hpp"
 #include "scheduler/set_up_picture.hpp"
 #include "scheduler/simulation.hpp"
+#include "water/standing_water.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -86,15 +87,19 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     const double step = description.time.step.value_or(stable.step);
 
     std::string text = fmt::format("{}\n", description.title);
+    const StandingWater standing(model);
     for (std::size_t b = 0; b < description.bodies.size(); ++b) {
         std::size_t count = 0;
         double mass = 0.0;
+        double volume = 0.0, below = 0.0;
         Extremes suction, saturation;
         for (std::size_t i = 0; i < model.size(); ++i)
             if (model.points.body[i] == b) {
                 ++count;
                 mass += model.points.mass[i];
-                suction.add(model.points.suction[i]);
+                volume += model.points.volume[i];
+                below += model.points.volume[i] * standing.share_below(standing.height_of(i));
+                suction.add(model.points.suction(i));
                 saturation.add(model.points.saturation[i]);
             }
         const BodyDescription& body = description.bodies[b];
@@ -103,6 +108,9 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
                             body.water.type == "dry"
                                 ? "dry"
                                 : fmt::format("suction {} Pa at saturation {}", suction.text(), saturation.text()));
+        if (model.bodies[b].has_standing_water())
+            text += fmt::format("    {:.1f} per cent of its volume below the water table, saturated and buoyant\n",
+                                100.0 * below / volume);
     }
     for (const ObstacleDescription& obstacle : description.obstacles)
         text += fmt::format("  obstacle '{}': {}\n", obstacle.name, obstacle.geometry.name);

@@ -129,7 +129,7 @@ void Simulation::restore()
     read_checkpoint(file, {model_, *force_state_, contact_, dynamics_, frequency_, at_, water}, description_.resolved,
                     settings_of(description_).skin,
                     [this](std::uint64_t stage) { enter_stage(description_.stages.at(stage)); });
-    water_.restore(std::move(water), description_.stages[at_.stage]);
+    water_.restore(model_, std::move(water), description_.stages[at_.stage]);
     dynamics_.hold(held_directions(model_, description_, held_regions_, description_.stages[at_.stage]));
     reports_ = nlohmann::json::parse(at_.stage_reports);
     resuming_ = true;
@@ -195,10 +195,11 @@ void Simulation::end_stage()
                               : static_cast<std::uint32_t>(settled - description_.bodies.begin());
         if (const std::optional<VerticalStress> profile = vertical_stress(model_, *force_state_, body)) {
             report["vertical_stress"] = to_json(*profile);
-            log_->info(
-                "body '{}', vertical stress against rho g depth: largest deviation of a layer {:.1f} per cent of "
-                "the stress at the bottom, {:.1f} per cent more than a horizon away from the ends",
-                description_.bodies[body].name, 100.0 * profile->largest_deviation, 100.0 * profile->inner_deviation);
+            log_->info("body '{}', vertical stress against the weight less buoyancy above: largest deviation of a "
+                       "layer {:.1f} per cent of "
+                       "the stress at the bottom, {:.1f} per cent more than a horizon away from the ends",
+                       description_.bodies[body].name, 100.0 * profile->largest_deviation,
+                       100.0 * profile->inner_deviation);
         }
         if (stage.response == "elastic")
             initialize_materials(model_, *force_state_);

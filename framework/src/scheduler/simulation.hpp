@@ -12,9 +12,9 @@
 #include "scheduler/output_schedule.hpp"
 #include "scheduler/progress.hpp"
 #include "scheduler/run.hpp"
-#include "scheduler/water.hpp"
 #include "time/dynamics.hpp"
 #include "time/stable_step.hpp"
+#include "water/water.hpp"
 
 #include <chrono>
 #include <memory>

@@ -4,7 +4,7 @@
 #include "scheduler/snapshot_fields.hpp"
 
 #include "operator/refresh.hpp"
-#include "scheduler/water.hpp"
+#include "water/mixture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,17 @@ const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const 
                      1, std::move(values));
         }
     }
-    fields_.push_back({"suction", "Pa", "matric suction, positive", 1, points.suction, {}});
+    fields_.push_back({"pore_pressure",
+                       "Pa",
+                       "pressure of the pore water over that of the air, compression positive: minus the suction above "
+                       "a water table, that of water at rest below it",
+                       1,
+                       points.pore_pressure,
+                       {}});
+    std::vector<double> suction(n);
+    for (std::size_t i = 0; i < n; ++i)
+        suction[i] = points.suction(i);
+    add_real("suction", "Pa", "matric suction, positive; zero below a water table", 1, std::move(suction));
     fields_.push_back({"saturation", "-", "degree of saturation of water", 1, points.saturation, {}});
     std::vector<std::int64_t> family(n);
     for (std::size_t i = 0; i < n; ++i)
@@ -130,7 +140,8 @@ std::vector<HistoryColumn> history_columns(const Model& model)
         {"friction_work", "J", "dissipated by friction"},
         {"collision_work", "J", "dissipated in the normal direction of contacts"},
         {"boundary_work", "J",
-         "done on the bodies by moving points and obstacles, and kinetic energy of water that came"},
+         "done on the bodies by moving points and obstacles and by the lift of standing water, and kinetic energy of "
+         "water that came"},
         {"energy_error", "J", "sum of the energies minus their sum at the release and the boundary work"},
         {"maximum_speed", "m/s", "largest speed of a point"},
         {"front", "m",

@@ -4,6 +4,8 @@
 #include "scheduler/vertical_stress.hpp"
 
 #include "operator/refresh.hpp"
+#include "water/overburden.hpp"
+#include "water/pore_stress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +27,7 @@ std::optional<VerticalStress> vertical_stress(const Model& model, const ForceSta
     const Vector3 up = -model.gravity / g;
     std::vector<double> states = model.point_state;
     mean_point_states(model, force_state, states);
-    double top = -INFINITY;
-    for (std::size_t i = 0; i < model.size(); ++i)
-        if (model.points.body[i] == body)
-            top = std::max(top, model.points.position[i].dot(up) + 0.5 * model.spacing);
+    const Overburden overburden(model, body);
     struct Sums {
         double stress = 0.0, expected = 0.0, depth = 0.0, count = 0.0;
     };
@@ -39,10 +38,10 @@ std::optional<VerticalStress> vertical_stress(const Model& model, const ForceSta
         const double* s = states.data() + i * model.state_stride;
         Eigen::Matrix3d stress;
         stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-        const double depth = top - model.points.position[i].dot(up);
+        const double depth = overburden.top() - model.points.position[i].dot(up);
         Sums& layer = layers[std::lround(std::floor(depth / model.spacing))];
-        layer.stress += up.dot(stress * up) + model.points.suction[i] * model.points.saturation[i];
-        layer.expected -= model.points.mass[i] / model.points.initial_volume[i] * g * depth;
+        layer.stress += up.dot(stress * up) + pore_stress(model.points.suction(i), model.points.saturation[i]);
+        layer.expected -= overburden.at(depth, i);
         layer.depth += depth;
         layer.count += 1.0;
     }
@@ -73,7 +72,7 @@ nlohmann::json to_json(const VerticalStress& profile)
     nlohmann::json layers = nlohmann::json::array();
     for (const VerticalStress::Layer& layer : profile.layers)
         layers.push_back({layer.depth, layer.stress, layer.expected});
-    return {{"columns", {"depth [m]", "total vertical stress [Pa]", "-rho g depth [Pa]"}},
+    return {{"columns", {"depth [m]", "vertical stress, effective + S_r s [Pa]", "-(weight - buoyancy above) [Pa]"}},
             {"layers", layers},
             {"largest_deviation", profile.largest_deviation},
             {"inner_deviation", profile.inner_deviation}};

@@ -16,8 +16,9 @@ namespace periporo {
 struct VerticalStress {
     struct Layer {
         double depth;    ///< mean of the points, below the top of the body [m]
-        double stress;   ///< mean total vertical stress, tension-positive [Pa]
-        double expected; ///< mean of -rho g depth [Pa]
+        double stress;   ///< mean vertical stress, effective + S_r s, tension-positive: the total
+                         ///< stress without the pressure of standing water [Pa]
+        double expected; ///< mean of -(weight less buoyancy of the body above, over the area) [Pa]
     };
     std::vector<Layer> layers;      ///< from the top, one spacing each
     double largest_deviation = 0.0; ///< of a layer, over the stress expected at the bottom [-]

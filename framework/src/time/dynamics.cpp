@@ -5,6 +5,7 @@
 
 #include "operator/refresh.hpp"
 #include "time/ordered_sum.hpp"
+#include "water/standing_water.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -115,7 +116,8 @@ void Dynamics::update_ledger(double time_step)
     const LedgerPowers powers = ledger_powers();
     ledger.friction -= work_of_step(state_.powers.friction, powers.friction, time_step);
     ledger.collision -= work_of_step(state_.powers.collision, powers.collision, time_step);
-    ledger.boundary += work_of_step(state_.powers.boundary, powers.boundary, time_step);
+    ledger.boundary +=
+        work_of_step(state_.powers.boundary, powers.boundary, time_step) + time_step * buoyancy_power_;
     state_.powers = powers;
     ledger.turned_over = std::max(ledger.turned_over, ledger.turnover());
 }
@@ -144,6 +146,7 @@ void Dynamics::sum_forces(const StepOptions& options)
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < n; ++i)
         points.force[i] = model_.internal_force[i] + points.mass[i] * model_.gravity;
+    buoyancy_power_ = add_buoyancy(model_, state_.buoyancy, points.force);
     using Approach = ContactForces::Approach;
     // Friction stops the slip of a contact within the step, also when damping has multiplied it.
     const double stopping_time = (1.0 + options.local_damping) * options.time_step;

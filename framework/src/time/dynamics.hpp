@@ -67,6 +67,7 @@ public:
         double force_squared_per_mass = 0.0; ///< sum |F|^2/m at the last evaluation [N2/kg]
         LedgerPowers powers;                 ///< at the last evaluation
         std::uint64_t refreshes = 0;
+        std::vector<double> buoyancy;        ///< of each point at the last evaluation, empty: never any [N]
         std::vector<Vector3> undamped_force; ///< of each point in the last damped step since start(), or none [N]
     };
     const State& state() const { return state_; }
@@ -115,7 +116,8 @@ private:
     ContactForces& contact_;
     DynamicsSettings settings_;
     std::vector<HeldDirection> held_;
-    double held_power_ = 0.0; ///< at the last evaluation [W]
+    double held_power_ = 0.0;     ///< at the last evaluation [W]
+    double buoyancy_power_ = 0.0; ///< of the lift of standing water, mean over the last step [W]
     State state_;
     struct BodyMotion {
         double mass = 0.0;         ///< [kg]

@@ -47,8 +47,10 @@ struct EnergyLedger {
     double contact = 0.0;     ///< stored in contacts
     double friction = 0.0;    ///< dissipated by friction
     double collision = 0.0;   ///< dissipated in the normal direction of contacts
-    double boundary = 0.0;    ///< work of moving points and obstacles on the bodies; kinetic energy of water that came
-    double opening = 0.0;     ///< kinetic + contact when opened
+    /// Work of moving points, of moving obstacles and of the lift of standing water on the bodies; kinetic energy of
+    /// water that came.
+    double boundary = 0.0;
+    double opening = 0.0; ///< kinetic + contact when opened
     /// What velocity Verlet lends to the kinetic energy within a period and takes back: minus dt^2 |F|^2/(8m) since the
     /// opening. A step from n to n+1 adds (F_n + F_n+1)/2 . dx to kinetic + verlet exactly.
     double verlet = 0.0;

@@ -1,10 +1,11 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-#include "scheduler/suction_field.hpp"
+// Pore pressures that are uniform, hydrostatic, or given by the rows of a file.
+#include "water/pressure_field.hpp"
 
 #include "periporo/csv_table.hpp"
-#include "scheduler/water.hpp"
+#include "water/mixture.hpp"
 
 #include <algorithm>
 #include <boost/geometry/geometries/point.hpp>
@@ -20,17 +21,17 @@
 namespace periporo {
 namespace {
 
-class Uniform : public SuctionField {
+class Uniform : public PressureField {
 public:
     explicit Uniform(double suction) : suction_(suction) {}
 
-    double at(const Vector3& /*place*/) const override { return suction_; }
+    double at(const Vector3& /*place*/) const override { return 0.0 - suction_; }
 
 private:
     double suction_;
 };
 
-class Hydrostatic : public SuctionField {
+class Hydrostatic : public PressureField {
 public:
     Hydrostatic(const WaterDescription& water, const Vector3& gravity)
         : axis_(water.water_table.axis), level_(water.water_table.offset), slope_(-water_density * gravity[axis_]),
@@ -38,10 +39,7 @@ public:
     {
     }
 
-    double at(const Vector3& place) const override
-    {
-        return std::clamp(slope_ * (place[axis_] - level_), 0.0, largest_);
-    }
+    double at(const Vector3& place) const override { return std::max(slope_ * (level_ - place[axis_]), -largest_); }
 
 private:
     int axis_;
@@ -50,7 +48,7 @@ private:
     double largest_; // [Pa]
 };
 
-class NearestRow : public SuctionField {
+class NearestRow : public PressureField {
 public:
     explicit NearestRow(const std::filesystem::path& file)
     {
@@ -75,7 +73,7 @@ public:
     {
         std::pair<Place, std::size_t> nearest;
         tree_.query(boost::geometry::index::nearest(Place(place.x(), place.y(), place.z()), 1), &nearest);
-        return suction_[nearest.second];
+        return 0.0 - suction_[nearest.second];
     }
 
 private:
@@ -88,7 +86,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<SuctionField> make_suction_field(const WaterDescription& water, const Vector3& gravity)
+std::unique_ptr<PressureField> make_pressure_field(const WaterDescription& water, const Vector3& gravity)
 {
     if (water.type == "hydrostatic")
         return std::make_unique<Hydrostatic>(water, gravity);

@@ -1,0 +1,65 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Layers of a body and what they weigh.
+#include "water/overburden.hpp"
+
+#include "water/standing_water.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace periporo {
+namespace {
+
+constexpr double alike = 1e-9; ///< relative difference of unit weights: far above round-off, far below any water
+
+} // namespace
+
+Overburden::Overburden(const Model& model, std::uint32_t body)
+    : model_(model), gravity_(model.gravity.norm()), top_(-std::numeric_limits<double>::infinity())
+{
+    const StandingWater water(model);
+    const Points& points = model.points;
+    double lowest = std::numeric_limits<double>::infinity();
+    double lightest = std::numeric_limits<double>::infinity(), heaviest = 0.0;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        if (points.body[i] != body)
+            continue;
+        const double height = points.position[i].dot(water.up());
+        top_ = std::max(top_, height + 0.5 * model.spacing);
+        lowest = std::min(lowest, height);
+        const double density = points.mass[i] / points.initial_volume[i];
+        lightest = std::min(lightest, density);
+        heaviest = std::max(heaviest, density);
+    }
+    if (!model.bodies[body].has_standing_water() && heaviest - lightest <= alike * heaviest)
+        return;
+    const auto layer_of = [&](double height) { return static_cast<std::size_t>((top_ - height) / model.spacing); };
+    unit_weight_.assign(layer_of(lowest) + 1, 0.0);
+    std::vector<double> volume(unit_weight_.size(), 0.0);
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        if (points.body[i] != body)
+            continue;
+        const std::size_t layer = layer_of(points.position[i].dot(water.up()));
+        unit_weight_[layer] += points.mass[i] * gravity_ - water.buoyancy_of(i);
+        volume[layer] += points.initial_volume[i];
+    }
+    double above = 0.0;
+    for (std::size_t layer = 0; layer < unit_weight_.size(); ++layer) {
+        above_.push_back(above);
+        unit_weight_[layer] = volume[layer] > 0.0 ? unit_weight_[layer] / volume[layer] : 0.0;
+        above += unit_weight_[layer] * model.spacing;
+    }
+}
+
+double Overburden::at(double depth, std::size_t point) const
+{
+    if (unit_weight_.empty())
+        return model_.points.mass[point] / model_.points.initial_volume[point] * gravity_ * depth;
+    const std::size_t layer = std::min(static_cast<std::size_t>(depth / model_.spacing), unit_weight_.size() - 1);
+    return above_[layer] + unit_weight_[layer] * (depth - static_cast<double>(layer) * model_.spacing);
+}
+
+} // namespace periporo
