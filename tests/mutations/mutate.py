@@ -1,7 +1,7 @@
 # Copyright 2026 The periporo authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-"""Breaks the operator on purpose and demands that a test notices.
+"""Breaks the operator, and the water, on purpose and demands that a test notices.
 
 A mutation replaces one text in one source. The mutated source is compiled with the command of the build, linked in
 front of the framework's library into a test program, and the program must report a failed check.
@@ -33,6 +33,8 @@ class Mutation:
 
 _IDENTITIES = "properties.operator_identities_test"
 _REFRESH = "unit.operator.refresh_test"
+_WATER = "unit.water.water_test"
+_STANDING_WATER = "unit.water.standing_water_test"
 
 MUTATIONS = {
     "influence_dropped_from_the_force": Mutation(
@@ -102,6 +104,50 @@ MUTATIONS = {
         "det > 0.0 * mean",
         "properties.degenerate_families_test",
     ),
+    "no_pressure_below_the_water_table": Mutation(
+        "water/pressure_field.cpp",
+        "return std::max(slope_ * (level_ - place[axis_]), -largest_);",
+        "return std::min(0.0, std::max(slope_ * (level_ - place[axis_]), -largest_));",
+        _WATER,
+    ),
+    "given_saturation_below_the_water_table": Mutation(
+        "water/water.cpp", "std::lerp(points.saturation[point], 1.0, soaked)", "points.saturation[point]", _WATER
+    ),
+    "soil_drains_when_it_leaves_the_water": Mutation(
+        "water/water.cpp", "changes ? share : std::max(course_.soaked[i], share)", "changes ? share : share", _WATER
+    ),
+    "pores_that_open_under_water_stay_empty": Mutation(
+        "water/water.cpp",
+        "std::max(grains, points.volume[point]) - grains - held",
+        "points.initial_volume[point] - grains - held",
+        _WATER,
+    ),
+    "water_level_lost_at_resume": Mutation(
+        "water/water.cpp",
+        "set_durations(stage);\n    for (std::size_t b = 0; b < bodies_.size(); ++b)\n        model.bodies[b].water_level = level(b);",
+        "set_durations(stage);",
+        _WATER,
+    ),
+    "weight_of_new_water_from_the_start_of_the_step": Mutation(
+        "water/water.cpp",
+        "points.position[i] + 0.5 * time_step * mid_velocity",
+        "points.position[i] + 0.0 * mid_velocity",
+        _WATER,
+    ),
+    "no_lift": Mutation("water/standing_water.cpp", "force[i] += now * water.up();", "", _STANDING_WATER),
+    "lift_at_once_at_the_surface": Mutation(
+        "water/standing_water.cpp",
+        "std::clamp(0.5 - height / model_.spacing, 0.0, 1.0)",
+        "(height < 0.0 ? 1.0 : 0.0)",
+        _STANDING_WATER,
+        header="water/standing_water.hpp",
+    ),
+    "work_of_the_lift_from_the_end_of_the_step": Mutation(
+        "water/standing_water.cpp", "0.5 * (before + now)", "now", _STANDING_WATER
+    ),
+    "buoyancy_left_out_of_the_overburden": Mutation(
+        "water/overburden.cpp", " - water.buoyancy_of(i)", "", "unit.water.overburden_test"
+    ),
 }
 
 
@@ -142,7 +188,8 @@ def _compile(original: str, file: Path, folder: Path, commands: list[str], build
     output = folder / "mutated.o"
     words[words.index("-o") + 1] = str(output)
     words[words.index("-c") + 1] = str(file)
-    words.insert(1, f"-I{folder}")
+    first_option = next(n for n, w in enumerate(words) if w.startswith("-"))  # behind the compiler and its launcher
+    words.insert(first_option, f"-I{folder}")
     words.append("-w")  # what a mutation leaves unused is no fault
     _must(shlex.join(words), build)
     return output
@@ -178,7 +225,7 @@ def main() -> int:
         print("\n".join(MUTATIONS))
         return 0
     if survives(options.name, options.source, options.build):
-        print(f"{options.name}: {MUTATIONS[options.name].test} passes although the operator is broken")
+        print(f"{options.name}: {MUTATIONS[options.name].test} passes although this is broken")
         return 1
     print(f"{options.name}: noticed by {MUTATIONS[options.name].test}")
     return 0

@@ -12,6 +12,7 @@
 #include "scheduler/held_points.hpp"
 #include "water/overburden.hpp"
 #include "water/pore_stress.hpp"
+#include "water/standing_water.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -187,6 +188,25 @@ void order_along_curve(Points& points, double spacing)
     apply(points.id);
 }
 
+/// Says which bodies reach below the water table of another one and are out of the water themselves.
+void remark_on_water_tables(BuiltModel& built)
+{
+    const Model& model = built.model;
+    const auto wet = std::ranges::max_element(model.bodies, {}, &Body::water_level);
+    if (!wet->has_standing_water())
+        return;
+    const StandingWater standing(model);
+    std::vector<std::uint8_t> reaches(model.bodies.size(), 0);
+    for (std::size_t i = 0; i < model.size(); ++i)
+        if (!model.body_of(i).has_standing_water() && model.points.position[i].dot(standing.up()) < wet->water_level)
+            reaches[model.points.body[i]] = 1;
+    for (std::size_t b = 0; b < reaches.size(); ++b)
+        if (reaches[b] != 0)
+            built.remarks.push_back(fmt::format("body '{}' reaches below the water table of body '{}', but no water "
+                                                "stands around it: each body names its own water_table",
+                                                model.bodies[b].name, wet->name));
+}
+
 } // namespace
 
 std::shared_ptr<const Material> make_material(const CaseDescription& description, const BodyDescription& body,
@@ -211,6 +231,7 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
     add_obstacles(built, description, geometries);
     order_along_curve(model.points, model.spacing);
     built.water.begin(model);
+    remark_on_water_tables(built);
     model.allocate();
     for (const HeldRegionDescription& region : description.held_regions) {
         built.held_regions.push_back(points_of_region(model, region, geometries));

@@ -272,7 +272,7 @@ void Simulation::take_step(const StepOptions& options, std::optional<double> end
     const NextStep next = end ? next_step(at_.time, *end, at_.time_step) : NextStep{at_.time_step, false};
     StepOptions with_step = options;
     with_step.time_step = next.length;
-    dynamics_.book(water_.follow(model_, at_.time + next.length - at_.stage_start));
+    dynamics_.book(water_.follow(model_, at_.time + next.length - at_.stage_start, next.length));
     dynamics_.step(with_step);
     if (end)
         at_.time = next.last ? *end : at_.time + next.length;

@@ -226,6 +226,8 @@ void Dynamics::book(const ArrivedEnergy& arrived)
 {
     state_.ledger.boundary += arrived.kinetic;
     state_.gravity_datum += arrived.gravity;
+    if (arrived.kinetic != 0.0 || arrived.gravity != 0.0)
+        state_.force_squared_per_mass = force_squared_per_mass(); // the half kick that follows has the new masses
 }
 
 double Dynamics::kinetic_energy() const

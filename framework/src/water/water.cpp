@@ -190,7 +190,7 @@ double Water::own_saturation(std::size_t point, std::size_t body, double porosit
                              porosity);
 }
 
-ArrivedEnergy Water::follow(Model& model, double time)
+ArrivedEnergy Water::follow(Model& model, double time, double time_step)
 {
     const bool stands = StandingWater(model).anywhere();
     if (settled_ && !(follows_porosity_ && model.wet) && !stands)
@@ -212,7 +212,8 @@ ArrivedEnergy Water::follow(Model& model, double time)
         const double mass = mass_of(model, i);
         const double arrived = mass - std::exchange(points.mass[i], mass);
         sum[0] += 0.5 * arrived * points.velocity[i].squaredNorm();
-        sum[1] -= arrived * model.gravity.dot(points.position[i]);
+        const Vector3 mid_velocity = points.velocity[i] + 0.5 * time_step / mass * points.force[i];
+        sum[1] -= arrived * model.gravity.dot(points.position[i] + 0.5 * time_step * mid_velocity);
     });
     return {kinetic, gravity};
 }

@@ -40,8 +40,10 @@ public:
     /// Sets pore pressure, saturation and mass of the points a time after the stage began [s]. The pressure goes evenly
     /// from one value to the other, and so does a water level; the saturation follows the curve of the material at the
     /// porosity of the moment. Costs nothing where nothing changes.
+    /// @param time_step of the step that follows: the weight of the new water acts on it from the middle of this step
+    /// on, since the forces at its start still have the old masses; 0 if the forces are renewed before [s]
     /// @returns the energy of the water that arrived, less that of the water that left
-    ArrivedEnergy follow(Model& model, double time);
+    ArrivedEnergy follow(Model& model, double time, double time_step = 0.0);
     /// Are the changes of the stage over?
     bool settled() const { return settled_; }
     /// How long after the beginning of the stage the last of its changes ends [s].

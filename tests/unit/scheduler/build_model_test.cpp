@@ -135,6 +135,33 @@ TEST_CASE("geostatic stress of a bond is that at the depth of its middle, with K
         }
 }
 
+TEST_CASE("geostatic stress across a water table is the weight less the buoyancy above, minus the pore part")
+{
+    const double level = 0.06, top = 0.12, g = 9.81;
+    const CaseDescription description =
+        quickstart({"body.column.water.type=hydrostatic", "body.column.water.water_table=z = 60 mm",
+                    "body.column.water.saturation=0.3"});
+    BuiltModel made = built(description);
+    Model& model = made.model;
+    model.isometries.set_generators(image_generators(description, description.stages[0]));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    find_first_families(model, *force);
+    set_initial_stress(model, *force, description);
+    const double moist = 2200.0 * 0.8 + 0.3 * 0.2 * 1000.0, in_water = (2200.0 - 1000.0) * 0.8;
+    const Points& points = model.points;
+    for (std::size_t i = 0; i < model.size(); ++i)
+        for (std::size_t b = 0; b < model.families[i].count; ++b) {
+            const std::uint32_t j = model.families[i].neighbours[b];
+            const std::uint32_t p = model.families.parent(j);
+            const double z = 0.5 * (points.position[i].z() + model.records[j].position[2]);
+            const double above = top - std::max(z, level), below = std::max(0.0, level - z);
+            const double pull =
+                0.25 * (points.suction(i) + points.suction(p)) * (points.saturation[i] + points.saturation[p]);
+            REQUIRE(specimens::bond_value(model, i, b, 2) ==
+                    doctest::Approx(-g * (moist * above + in_water * below) - pull).epsilon(1e-10));
+        }
+}
+
 TEST_CASE("cylindrical rollers hold the radial direction of the outer ring only")
 {
     const CaseDescription description = quickstart({"stage.0.rollers=[\"r = 100 mm\"]"});

@@ -3,11 +3,13 @@
 //
 // Pore pressure, saturation and mass of the points of a case.
 #include "case/reader.hpp"
+#include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
 #include "support/case_text.hpp"
 #include "support/errors.hpp"
 #include "support/plugins.hpp"
 #include "support/temporary_folder.hpp"
+#include "time/dynamics.hpp"
 #include "water/standing_water.hpp"
 
 #include <doctest/doctest.h>
@@ -369,4 +371,45 @@ TEST_CASE("a stage that follows a change, and one that was resumed, goes on from
         }
     }
     CHECK(other.points.pore_pressure == model.points.pore_pressure);
+}
+
+TEST_CASE("a body out of the water that reaches below the table of another is remarked on")
+{
+    const std::string beside = R"(
+[body.stone]
+geometry = { generator = "box", size = ["200 mm", "200 mm", "200 mm"], origin = ["1 m", "0 m", "LEVEL"] }
+material = "soil"
+)";
+    const auto remarks = [&](const char* level) {
+        std::string stone = beside;
+        stone.replace(stone.find("LEVEL"), 5, level);
+        return Block("", half_wet + stone).built.remarks;
+    };
+    CHECK(remarks("500 mm").empty());
+    REQUIRE(remarks("350 mm").size() == 1);
+    check_mentions(remarks("350 mm")[0], {"'stone'", "'block'", "water_table"});
+}
+
+TEST_CASE("soil that falls into the water and fills keeps its energy, and that of the water that it took up")
+{
+    Block block("", "water = { type = \"hydrostatic\", water_table = \"z = -50 mm\", largest_suction = \"100 Pa\", "
+                    "saturation = 0.25 }");
+    Model& model = block.built.model;
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    find_first_families(model, *force);
+    Water water = block.begun();
+    ContactForces contact(std::vector<ContactAssignment>{});
+    Dynamics dynamics(model, *force, contact, {0.1 * model.spacing, false});
+    water.follow(model, 0.0);
+    dynamics.start();
+    dynamics.open_ledger();
+    const double time_step = 2e-4; // a tenth of the stable one
+    for (int step = 1; step <= 3000; ++step) {
+        dynamics.book(water.follow(model, step * time_step, time_step));
+        dynamics.step({time_step, MaterialResponse::full, 0.0});
+    }
+    CHECK(*std::ranges::min_element(model.points.saturation) == 1.0);
+    const EnergyLedger& ledger = dynamics.ledger();
+    MESSAGE("energy error over the work of the lift: " << ledger.error() / std::abs(ledger.boundary));
+    CHECK(std::abs(ledger.error()) < 1e-5 * std::abs(ledger.boundary)); // stress is not linear in the motion of a step
 }
