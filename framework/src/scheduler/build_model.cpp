@@ -313,7 +313,8 @@ void set_initial_stress(Model& model, const ForceState& force_state, const CaseD
             const std::size_t j = model.families.parent(held.neighbours[h]);
             const double water = pore_stress(0.5 * (points.suction(i) + points.suction(j)),
                                              0.5 * (points.saturation[i] + points.saturation[j]));
-            const double vertical = -above.at(depth, i) - water;
+            const Overburden::Line load = above.around(depth, i);
+            const double vertical = -load.unit_weight * depth - (load.offset + water);
             const double lateral = initial.lateral_coefficient * vertical;
             const Eigen::Matrix3d stress =
                 lateral * Eigen::Matrix3d::Identity() + (vertical - lateral) * up * up.transpose();

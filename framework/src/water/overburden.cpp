@@ -54,12 +54,13 @@ Overburden::Overburden(const Model& model, std::uint32_t body)
     }
 }
 
-double Overburden::at(double depth, std::size_t point) const
+Overburden::Line Overburden::around(double depth, std::size_t point) const
 {
     if (unit_weight_.empty())
-        return model_.points.mass[point] / model_.points.initial_volume[point] * gravity_ * depth;
+        return {model_.points.mass[point] / model_.points.initial_volume[point] * gravity_, 0.0};
     const std::size_t layer = std::min(static_cast<std::size_t>(depth / model_.spacing), unit_weight_.size() - 1);
-    return above_[layer] + unit_weight_[layer] * (depth - static_cast<double>(layer) * model_.spacing);
+    const double top = static_cast<double>(layer) * model_.spacing;
+    return {unit_weight_[layer], above_[layer] - unit_weight_[layer] * top};
 }
 
 } // namespace periporo

@@ -20,10 +20,20 @@ public:
 
     /// Height of the top of the body: that of its highest point plus half a spacing [m].
     double top() const { return top_; }
+    /// The stress that carries what lies above, compression positive: unit_weight * depth + offset within a layer.
+    struct Line {
+        double unit_weight; ///< [N/m3]
+        double offset;      ///< 0 where all points are alike [Pa]
+    };
     /// @param depth below the top, at least 0 [m]
     /// @param point of the body, whose unit weight counts where all are alike
-    /// @returns the stress that carries what lies above, compression positive [Pa]
-    double at(double depth, std::size_t point) const;
+    Line around(double depth, std::size_t point) const;
+    /// The same at the depth itself [Pa].
+    double at(double depth, std::size_t point) const
+    {
+        const Line line = around(depth, point);
+        return line.unit_weight * depth + line.offset;
+    }
 
 private:
     const Model& model_;
