@@ -97,38 +97,45 @@ void Water::begin(Model& model)
 void Water::begin_stage(const Model& model, const StageDescription& stage)
 {
     const Points& points = model.points;
-    const StandingWater standing(model);
     WaterCourse now = course_;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
         now.level_before[b] = now.level_after[b] = level(b);
     for (std::size_t i = 0; i < model.size(); ++i) {
-        const double own =
+        now.pressure_before[i] =
             std::lerp(course_.pressure_before[i], course_.pressure_after[i], course_.done[points.body[i]]);
-        now.pressure_before[i] = std::lerp(own, points.pore_pressure[i], course_.soaked[i]);
         now.saturation_before[i] = own_saturation(i, points.body[i], porosity_of(model, i));
     }
     now.pressure_after = now.pressure_before;
     now.saturation_after = now.saturation_before;
     course_ = std::move(now);
     set_durations(stage);
-    for (const WaterChangeDescription& change : stage.water_changes) {
-        const auto field = field_of(*description_, change.body, change.water);
-        for (std::size_t b = 0; b < bodies_.size(); ++b) {
-            if (description_->bodies[b].name != change.body)
-                continue;
-            course_.level_after[b] = level_of(change.water, standing.up());
-            course_.lowest[b] = std::numeric_limits<double>::infinity();
-        }
-        for (std::size_t i = 0; i < model.size(); ++i) {
-            const std::size_t body = points.body[i];
-            if (description_->bodies[body].name != change.body)
-                continue;
-            course_.pressure_after[i] = field->at(points.position[i]);
-            course_.saturation_after[i] =
-                given_saturation(body, change.water, course_.pressure_after[i], porosity_of(model, i));
-            const double bottom = points.position[i].dot(standing.up()) - 0.5 * model.spacing;
-            course_.lowest[body] = std::min(course_.lowest[body], bottom);
-        }
+    for (const WaterChangeDescription& change : stage.water_changes)
+        for (std::size_t b = 0; b < bodies_.size(); ++b)
+            if (description_->bodies[b].name == change.body)
+                begin_change(model, b, change.water);
+}
+
+void Water::begin_change(const Model& model, std::size_t body, const WaterDescription& water)
+{
+    const Points& points = model.points;
+    const StandingWater standing(model);
+    const auto field = field_of(*description_, description_->bodies[body].name, water);
+    course_.level_after[body] = level_of(water, standing.up());
+    course_.lowest[body] = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        if (points.body[i] != body)
+            continue;
+        course_.lowest[body] =
+            std::min(course_.lowest[body], points.position[i].dot(standing.up()) - 0.5 * model.spacing);
+        // The change starts from the water that the point has, also where it took that from standing water.
+        const double share = standing.share_below(standing.height_of(i));
+        const double soaked = std::exchange(course_.soaked[i], share);
+        course_.pressure_before[i] = std::lerp(course_.pressure_before[i], points.pore_pressure[i], soaked);
+        if (soaked > share)
+            course_.saturation_before[i] =
+                std::lerp(course_.saturation_before[i], 1.0, (soaked - share) / (1.0 - share));
+        course_.pressure_after[i] = field->at(points.position[i]);
+        course_.saturation_after[i] = given_saturation(body, water, course_.pressure_after[i], porosity_of(model, i));
     }
 }
 

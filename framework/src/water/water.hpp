@@ -69,6 +69,7 @@ private:
     /// Interpolates the water level of a body [m].
     double level(std::size_t body) const;
     void set_durations(const StageDescription& stage);
+    void begin_change(const Model& model, std::size_t body, const WaterDescription& water);
     /// Sets pore pressure and saturation of a point.
     void fill(Model& model, std::size_t point, const StandingWater& standing);
     /// Mass of a point with the water that it holds [kg].

@@ -327,6 +327,20 @@ TEST_CASE("soil that sinks into standing water fills and loses its suction, even
     lift(model, 10.0); // its suction never exceeds its own
     water.follow(model, 0.4);
     CHECK(points.suction(top) == doctest::Approx(own).epsilon(1e-12));
+    // a change of its water starts from what it holds
+    StageDescription drying = block.description.stages[0];
+    WaterDescription uniform;
+    uniform.type = "uniform";
+    uniform.suction = 2e3;
+    uniform.saturation = 0.2;
+    drying.water_changes = {{"block", uniform, 1.0}};
+    water.begin_stage(model, drying);
+    for (const double time : {0.0, 0.5, 1.0}) {
+        CAPTURE(time);
+        water.follow(model, time);
+        CHECK(points.suction(top) == doctest::Approx(std::lerp(own, 2e3, time)).epsilon(1e-12));
+        CHECK(points.saturation[top] == doctest::Approx(std::lerp(1.0, 0.2, time)).epsilon(1e-12));
+    }
 }
 
 TEST_CASE("under water the pores of soil that opens stay full: less its buoyancy it weighs what its grains do there")
