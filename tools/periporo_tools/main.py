@@ -39,8 +39,8 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--out", type=Path, metavar="FILE",
                         help="picture of --series (series.png) or --side-by-side (side_by_side.png)")
     parser.add_argument("--field", metavar="NAME",
-                        help="field of the results to colour by: saturation, suction, porosity, density, velocity,"
-                        " effective_stress.zz ... (plastic shear strain)")
+                        help="field of the results to colour by: saturation, suction, pore_pressure, porosity, density,"
+                        " velocity, effective_stress.zz ... (plastic shear strain)")
     parser.add_argument("--colour-max", type=float, metavar="VALUE", help="upper end of the colours (2 for strain)")
     parser.add_argument("--extent", type=float, metavar="MM", help="half-width of the views, for one scale in a series")
     parser.add_argument("--times", type=float, nargs="+", metavar="S", help="times of sequence.png [s]")
