@@ -264,7 +264,7 @@ void refresh_families(Model& model, const ForceState& force_state, std::span<con
     }
     hand_out_point_variables(model);
     model.update_records();
-    follow_occupied_volume(model, families_before);
+    follow_occupied_volume(model, replaced.families);
 }
 
 double displacement_since_refresh(const Model& model)
