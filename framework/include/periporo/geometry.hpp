@@ -7,6 +7,8 @@
 #include "periporo/plugin.hpp"
 #include "periporo/tensor.hpp"
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +25,30 @@ struct Bounds {
 struct PointCloud {
     std::vector<Vector3> positions; ///< [m]
     std::vector<double> volumes;    ///< [m3]; their sum may differ from the geometry's volume, which is reported
+};
+
+/// A convex part of a solid, or the plane of one of its faces, as seen from a position.
+struct SurfacePiece {
+    double distance; ///< from the position, positive on the free side [m]
+    Vector3 normal;  ///< unit direction in which the distance grows fastest
+};
+
+/// The pieces of a surface near a position; the nearest ones where there are more than fit. Takes no memory elsewhere.
+class SurfacePieces {
+public:
+    static constexpr std::size_t capacity = 32;
+
+    /// Triangles of one plane, or around one corner, that are the same piece from here are kept once.
+    void add(double distance, const Vector3& normal);
+    void clear() { count_ = 0; }
+    bool empty() const { return count_ == 0; }
+    std::size_t size() const { return count_; }
+    const SurfacePiece* begin() const { return pieces_.data(); }
+    const SurfacePiece* end() const { return pieces_.data() + count_; }
+
+private:
+    std::size_t count_ = 0;
+    std::array<SurfacePiece, capacity> pieces_;
 };
 
 /// A solid region. Everything but set_operands() is called from several threads at once.
@@ -51,6 +77,17 @@ public:
     /// fastest. Near an edge it is the distance to the edge.
     /// @throws std::logic_error unless has_distance().
     virtual double signed_distance(const Vector3& position, Vector3& normal) const;
+
+    /// Can find_pieces() find more than one piece? A convex solid has one. A solid with notches, valleys or cavities
+    /// that answers true, and overrides find_pieces(), lets a point rest on all faces of a concave corner.
+    virtual bool has_pieces() const { return false; }
+    /// Adds the pieces of the solid that are nearer than `reach` [m] to a position outside of it: convex parts whose
+    /// union it is, or triangles of its surface. A piece may end within another one; where faces of two pieces are
+    /// flush, their common edge is not felt. Unless overridden it is the one piece of signed_distance().
+    virtual void find_pieces(const Vector3& position, double reach, SurfacePieces& pieces) const;
+    /// The same of the rest of space, for a position inside the solid: the planes of a box, seen from within. With it
+    /// the solid can be taken away from another one. Unless overridden it is the one piece of signed_distance().
+    virtual void find_pieces_from_within(const Vector3& position, double reach, SurfacePieces& pieces) const;
 
     /// What a user should know of the geometry as made: what was repaired, what was left out, how its volume was found.
     virtual std::vector<std::string> remarks() const { return {}; }

@@ -220,8 +220,8 @@ CaseDescription build_description(const CheckedTable& root)
             description.held_regions.push_back(held_region_of(table));
     }
     for (const CheckedTable& table : root.all("contact"))
-        description.contacts.push_back(
-            {plugin_choice(table, "law"), table.own.text_list("between"), optional_text(table.own, "surface")});
+        description.contacts.push_back({plugin_choice(table, "law"), table.own.text_list("between"),
+                                        optional_text(table.own, "surface"), table.own.text("crossing") == "stop"});
     for (const CheckedTable& table : root.all("stage"))
         description.stages.push_back(stage_of(table));
     for (const CheckedTable& table : root.all("output"))

@@ -136,6 +136,7 @@ struct ContactDescription {
     std::vector<std::string> between; ///< one body (against the law's own surface), two bodies, a body and an obstacle,
                                       ///< or one body twice (its free grains)
     std::string surface;              ///< the body whose smoothed surface is touched, or empty
+    bool crossing_stops = true;       ///< a point that goes through the obstacle stops the run; or it is a warning
 };
 
 /// What the water of a body becomes during a stage.

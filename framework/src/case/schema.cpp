@@ -241,7 +241,11 @@ TableRules contact_rules()
                                            "obstacle; or one body twice, for its free grains"),
                       Parameter::text("surface", "Of two bodies the one whose smoothed surface the other touches, with "
                                                  "the reaction along its normal; when left out, point touches point")
-                          .optional()}};
+                          .optional(),
+                      Parameter::text("crossing", "When a point has gone through the obstacle: stop the run, or warn "
+                                                  "and let go of the point")
+                          .one_of({"stop", "warn"})
+                          .by_default("stop")}};
     rules.selector = "law";
     rules.plugin = PluginKind::contact;
     return rules;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "contact/contact_forces.hpp"
+#include "contact/way_out.hpp"
 
 #include <algorithm>
 
@@ -45,13 +46,42 @@ public:
     {
         return obstacle_ == nullptr ? own_->distance(position, normal) : obstacle_->distance(position, normal);
     }
-    bool is_near(const Vector3& position, double reach) const
+    /// What the surface does to a point that comes from `last_free`: see meet(). Both places are those of an obstacle
+    /// that has not moved yet; a plugin's own surface has one face, and pushes to any depth.
+    SolidMeeting meeting(const Vector3& position, double distance, const Vector3& normal, double reach,
+                         const Vector3& last_free) const
+    {
+        return obstacle_ == nullptr ? meet_nearest(position, distance, normal, reach)
+                                    : meet(*obstacle_->geometry, position, distance, normal, reach, last_free);
+    }
+    /// How far the surface has moved [m].
+    Vector3 shift() const { return obstacle_ == nullptr ? Vector3(Vector3::Zero()) : obstacle_->shift; }
+    /// May several faces push a point at once that lies nearer than `reach` to them [m]?
+    bool may_hold_in_corner(const Vector3& position, double reach) const
+    {
+        if (obstacle_ == nullptr || !obstacle_->geometry->has_pieces())
+            return false;
+        SurfacePieces pieces;
+        obstacle_->geometry->find_pieces(position - obstacle_->shift, reach, pieces);
+        return pieces.size() > 1;
+    }
+    /// @param place of a point, as an obstacle lies in its geometry [m]
+    bool is_near(const Vector3& place, double reach) const
     {
         Vector3 normal;
-        return (obstacle_ == nullptr || obstacle_->may_touch(position, reach)) && distance(position, normal) < reach;
+        if (obstacle_ == nullptr)
+            return own_->distance(place, normal) < reach;
+        return may_touch(obstacle_->geometry->bounds(), place, reach) &&
+               obstacle_->geometry->signed_distance(place, normal) < reach;
     }
 
 private:
+    /// May a place be nearer than `reach` to what lies within the bounds? False is certain.
+    static bool may_touch(const Bounds& bounds, const Vector3& place, double reach)
+    {
+        return ((place - bounds.upper).array() < reach).all() && ((bounds.lower - place).array() < reach).all();
+    }
+
     const Obstacle* obstacle_;
     const RigidSurface* own_;
 };

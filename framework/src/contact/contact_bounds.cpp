@@ -117,7 +117,10 @@ void ContactForces::bound_surface(const Model& model, std::size_t assignment, do
             continue;
         const double mass = model.points.mass[i];
         const ContactPair pair{0.0, 0.0, model.points.volume[i], 0.0, mass, 0.0};
-        add(bounds_[i], normal, pair, slopes(*at.law, pair), 1.0 / mass);
+        if (surface.may_hold_in_corner(model.points.position[i], at.law->cutoff() + margin))
+            add_everywhere(bounds_[i], pair, slopes(*at.law, pair), 1.0 / mass);
+        else
+            add(bounds_[i], normal, pair, slopes(*at.law, pair), 1.0 / mass);
     }
 }
 

@@ -5,10 +5,12 @@
 
 #include "contact/assignment.hpp"
 #include "contact/contact_slopes.hpp"
+#include "contact/corner_dashpot.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace periporo {
@@ -18,6 +20,15 @@ constexpr std::size_t block = 128;
 constexpr double bearing_overlap = 0.1; ///< overlap over reach up to which a point counts as resting on a surface
 /// How far points and obstacles move until points near rigid surfaces are sought anew, in spacings.
 constexpr double surface_skin = 0.4;
+/// Reach over that of the law below which a point that takes the room it finds has no side from which it came.
+constexpr double least_reach = 1e-3;
+
+const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+
+bool is_nowhere(const Vector3& place)
+{
+    return place.x() != place.x();
+}
 
 } // namespace
 
@@ -59,10 +70,33 @@ void ContactForces::follow_surfaces(const Model& model)
 
 void ContactForces::find_near_surfaces(const Model& model)
 {
-    near_surface_.resize(assignments_.size());
+    const std::vector<Vector3> searched = std::move(searched_);
+    const std::vector<Vector3> searched_shifts = std::move(searched_shifts_);
     searched_ = model.points.position;
     searched_shifts_.resize(model.obstacles.size());
     std::ranges::transform(model.obstacles, searched_shifts_.begin(), &Obstacle::shift);
+    list_near_surfaces(model);
+    for (std::size_t a = 0; a < assignments_.size(); ++a) {
+        const ContactAssignment& assignment = assignments_[a];
+        if (!assignment.obstacle)
+            continue;
+        std::vector<Vector3> places(model.size(), nowhere);
+        const bool was_free = searched.size() == model.size() && model.obstacles[*assignment.obstacle].present;
+        for (const std::uint32_t i : near_surface_[a]) {
+            if (free_place_[a].size() == model.size() && !is_nowhere(free_place_[a][i]))
+                places[i] = free_place_[a][i];
+            else if (was_free) // and the point may have leapt over the obstacle since
+                places[i] = searched[i] - searched_shifts.at(*assignment.obstacle);
+        }
+        free_place_[a] = std::move(places);
+    }
+}
+
+void ContactForces::list_near_surfaces(const Model& model)
+{
+    near_surface_.resize(assignments_.size());
+    free_place_.resize(assignments_.size());
+    std::vector<std::uint8_t> near(model.size(), 0);
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
         const ContactAssignment& assignment = assignments_[a];
         near_surface_[a].clear();
@@ -70,10 +104,10 @@ void ContactForces::find_near_surfaces(const Model& model)
             continue;
         const RigidContactSurface surface(model, assignment);
         const double reach = assignment.law->cutoff() + (surface_margin + surface_skin) * model.spacing;
-        std::vector<std::uint8_t> near(model.size(), 0);
+        const Vector3 shift = assignment.obstacle ? searched_shifts_[*assignment.obstacle] : Vector3(Vector3::Zero());
 #pragma omp parallel for schedule(dynamic, 256)
         for (std::size_t i = 0; i < model.size(); ++i)
-            near[i] = names(assignment, model.points.body[i]) && surface.is_near(model.points.position[i], reach);
+            near[i] = names(assignment, model.points.body[i]) && surface.is_near(searched_[i] - shift, reach);
         for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i)
             if (near[i] != 0)
                 near_surface_[a].push_back(i);
@@ -89,12 +123,16 @@ void ContactForces::make_room(const Model& model)
         const RigidContactSurface surface(model, assignment);
         if (!surface.present()) {
             room_[a].clear();
+            if (assignment.obstacle)
+                free_place_[a].assign(model.size(), nowhere);
             continue;
         }
         if (!room_[a].empty())
             continue;
         const double reach = assignment.law->cutoff();
         room_[a].assign(model.size(), reach);
+        if (assignment.obstacle)
+            free_place_[a].assign(model.size(), nowhere);
         for (const std::uint32_t i : near_surface_[a]) {
             Vector3 normal;
             const double distance = surface.distance(model.points.position[i], normal);
@@ -129,9 +167,67 @@ void ContactForces::set_rooms(const Model& model, std::span<const double> rooms)
     }
 }
 
+ContactForces::SurfaceTrack ContactForces::surface_track() const
+{
+    SurfaceTrack track{{}, searched_, searched_shifts_};
+    for (const std::vector<Vector3>& places : free_place_)
+        track.free_places.insert(track.free_places.end(), places.begin(), places.end());
+    return track;
+}
+
+void ContactForces::set_surface_track(const Model& model, const SurfaceTrack& track)
+{
+    if (track.searched.size() != model.size())
+        return; // no surface
+    searched_ = track.searched;
+    searched_shifts_ = track.searched_shifts;
+    list_near_surfaces(model);
+    auto place = track.free_places.begin();
+    for (std::vector<Vector3>& places : free_place_) {
+        const auto end = place + static_cast<std::ptrdiff_t>(places.size());
+        places.assign(place, end);
+        place = end;
+    }
+}
+
 void ContactForces::note_overlap(std::size_t assignment, double overlap)
 {
     deepest_[assignment] = std::max(deepest_[assignment], overlap);
+}
+
+void ContactForces::push(const Model& model, std::size_t assignment, const ContactPair& pair,
+                         const ContactResponse& response, std::uint32_t point, const WayOut& way,
+                         std::vector<Vector3>& force)
+{
+    const ContactAssignment& at = assignments_[assignment];
+    const Vector3 velocity = RigidContactSurface(model, at).velocity();
+    const auto obstacle = at.obstacle.value_or(static_cast<std::uint32_t>(model.obstacles.size()));
+    const Vector3 direction = way.faces == 1 ? way.normals[0] : Vector3(way.move.normalized());
+    Vector3 reaction = response.force * direction;
+    Vector3 damping = response.damping_force * direction;
+    if (way.faces > 1 && approach_factor_ > 0.0) {
+        const Vector3 braking = brake_across(*at.law, pair, way, model.points.velocity[point] - velocity, reaction);
+        reaction += braking;
+        damping += braking;
+    }
+    force[point] += reaction;
+    damping_[point] += damping;
+    point_energy_[point] += response.energy;
+    obstacle_power_.reaction += reaction.dot(velocity);
+    obstacle_power_.damping += damping.dot(velocity);
+    obstacle_reactions_[obstacle] += reaction;
+    surface_contacts_.push_back(
+        {point, at.law->friction(), way.pressing() * response.force, direction, velocity, obstacle});
+}
+
+void ContactForces::let_go(const Model& model, std::size_t assignment, std::uint32_t point, double distance)
+{
+    crossings_.push_back({assignment, point});
+    ++crossed_points_[assignment];
+    std::vector<double>& room = room_[assignment];
+    if (room.empty())
+        room.assign(model.size(), assignments_[assignment].law->cutoff());
+    room[point] = std::min(room[point], distance);
 }
 
 void ContactForces::add_surface(const Model& model, std::size_t assignment, std::vector<Vector3>& force)
@@ -141,48 +237,52 @@ void ContactForces::add_surface(const Model& model, std::size_t assignment, std:
     if (!surface.present())
         return;
     const Vector3 velocity = surface.velocity();
-    const auto obstacle = at.obstacle.value_or(static_cast<std::uint32_t>(model.obstacles.size()));
+    const Vector3 shift = surface.shift();
     const double reach = at.law->cutoff();
     std::array<ContactPair, block> pairs;
     std::array<ContactResponse, block> responses;
     std::array<std::uint32_t, block> touching;
-    std::array<Vector3, block> normals;
+    std::array<WayOut, block> ways;
     std::size_t count = 0;
     const auto flush = [&] {
         at.law->evaluate(std::span(pairs.data(), count), std::span(responses.data(), count));
-        for (std::size_t c = 0; c < count; ++c) {
-            const Vector3 reaction = responses[c].force * normals[c];
-            const Vector3 damping = responses[c].damping_force * normals[c];
-            force[touching[c]] += reaction;
-            damping_[touching[c]] += damping;
-            point_energy_[touching[c]] += responses[c].energy;
-            obstacle_power_.reaction += reaction.dot(velocity);
-            obstacle_power_.damping += damping.dot(velocity);
-            obstacle_reactions_[obstacle] += reaction;
-            surface_contacts_.push_back(
-                {touching[c], at.law->friction(), responses[c].force, normals[c], velocity, obstacle});
-        }
+        for (std::size_t c = 0; c < count; ++c)
+            push(model, assignment, pairs[c], responses[c], touching[c], ways[c], force);
         count = 0;
     };
     std::vector<double>& room = room_[assignment];
+    Vector3* const free_places = at.obstacle ? free_place_[assignment].data() : nullptr;
     for (const std::uint32_t i : near_surface_[assignment]) {
         Vector3 normal;
+        const Vector3 position = model.points.position[i] - shift;
         const double distance = surface.distance(model.points.position[i], normal);
         double own_reach = reach;
         if (!room.empty())
             own_reach = room[i] = std::clamp(distance, room[i], reach);
-        if (distance >= own_reach)
+        SolidMeeting met;
+        if (free_places == nullptr || own_reach < least_reach * reach) {
+            if (distance < own_reach)
+                met = meet_nearest(position, distance, normal, own_reach);
+        } else {
+            met = surface.meeting(position, distance, normal, own_reach, free_places[i]);
+            free_places[i] = met.free_place;
+        }
+        if (met.crossed)
+            let_go(model, assignment, i, distance);
+        if (met.way.faces == 0)
             continue;
-        note_overlap(assignment, (own_reach - distance) / reach);
-        pairs[count] = {distance + (reach - own_reach),
-                        -approach_factor_ * (model.points.velocity[i] - velocity).dot(normal),
+        const double overlap = met.way.faces == 1 ? met.way.shares[0] : met.way.move.norm();
+        note_overlap(assignment, overlap / reach);
+        const Vector3 direction = met.way.faces == 1 ? met.way.normals[0] : Vector3(met.way.move / overlap);
+        pairs[count] = {reach - overlap,
+                        -approach_factor_ * (model.points.velocity[i] - velocity).dot(direction),
                         model.points.volume[i],
                         0.0,
                         model.points.mass[i],
                         0.0,
                         law_step_};
         touching[count] = i;
-        normals[count] = normal;
+        ways[count] = met.way;
         if (++count == block)
             flush();
     }
@@ -197,6 +297,7 @@ void ContactForces::add_reactions(const Model& model, double time_step, Approach
     point_energy_.assign(model.size(), 0.0);
     damping_.assign(model.size(), Vector3::Zero());
     obstacle_power_ = {};
+    crossings_.clear();
     obstacle_reactions_.assign(model.obstacles.size() + 1, Vector3::Zero());
     surface_contacts_.clear();
     for (std::size_t a = 0; a < assignments_.size(); ++a) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "contact/smoothed_surface.hpp"
+#include "contact/way_out.hpp"
 #include "model/model.hpp"
 #include "periporo/contact.hpp"
 
@@ -34,6 +35,12 @@ struct ObstaclePower {
     double damping = 0.0;  ///< the part of what does not come from stored energy
 };
 
+/// A point that went through an obstacle.
+struct Crossing {
+    std::size_t assignment;
+    std::uint32_t point;
+};
+
 /// Stiffness and damping of a point against the ground, over its mass, that together with those of all others are
 /// nowhere below what contact adds: with blocks S_i and C_i, sum u_i . S_i u_i m_i is at least twice the energy of the
 /// contacts for all displacements u, and the same holds of C_i and the power of the dashpots.
@@ -49,7 +56,7 @@ class ContactForces {
 public:
     explicit ContactForces(std::vector<ContactAssignment> assignments)
         : assignments_(std::move(assignments)), candidates_(assignments_.size()), room_(assignments_.size()),
-          deepest_(assignments_.size(), 0.0)
+          deepest_(assignments_.size(), 0.0), crossed_points_(assignments_.size(), 0)
     {
     }
 
@@ -92,10 +99,25 @@ public:
     std::vector<double> rooms() const;
     void set_rooms(const Model& model, std::span<const double> rooms);
     /// For each assignment the deepest overlap of the run so far, over the reach of the contact: at 1 the two points
-    /// lie in one place, or a point lies in the surface; far beyond that it went through.
+    /// lie in one place, or a point lies in the surface; beyond that it lies behind it.
     const std::vector<double>& deepest_overlap() const { return deepest_; }
     void set_deepest_overlap(std::vector<double> deepest) { deepest_ = std::move(deepest); }
     const std::vector<ContactAssignment>& assignments() const { return assignments_; }
+    /// Points that came out of an obstacle at another side than they had entered it, or jumped over it, in the last
+    /// step. The obstacle has let go of them: what they had stored in the contact is lost.
+    const std::vector<Crossing>& crossings() const { return crossings_; }
+    /// For each assignment, how many there have been in the run so far.
+    const std::vector<std::int64_t>& crossed_points() const { return crossed_points_; }
+    void set_crossed_points(std::vector<std::int64_t> count) { crossed_points_ = std::move(count); }
+
+    /// What must be kept of rigid surfaces besides their rooms to go on as if nothing had happened.
+    struct SurfaceTrack {
+        std::vector<Vector3> free_places;     ///< see free_place_; one list after the other
+        std::vector<Vector3> searched;        ///< positions of the points when near ones were last sought [m]
+        std::vector<Vector3> searched_shifts; ///< of the obstacles [m]
+    };
+    SurfaceTrack surface_track() const;
+    void set_surface_track(const Model& model, const SurfaceTrack& track);
 
     /// Stored in all contacts at the last add_reactions [J].
     double energy() const { return energy_; }
@@ -123,7 +145,7 @@ private:
     struct SurfaceContact {
         std::uint32_t point;
         double friction;
-        double force;
+        double force; ///< sum of the normal forces on all faces that take part [N]
         Vector3 normal;
         Vector3 velocity;       ///< of the surface [m/s]
         std::uint32_t obstacle; ///< of the model, or as many as it has for a law's own surface
@@ -145,7 +167,12 @@ private:
     /// Pieces of a body that are apart and may touch.
     void find_pairs_apart(const Model& model, std::size_t assignment, double slack);
     void find_near_surfaces(const Model& model);
+    void list_near_surfaces(const Model& model);
     void add_surface(const Model& model, std::size_t assignment, std::vector<Vector3>& force);
+    /// Adds the reaction of a surface on a point.
+    void push(const Model& model, std::size_t assignment, const ContactPair& pair, const ContactResponse& response,
+              std::uint32_t point, const WayOut& way, std::vector<Vector3>& force);
+    void let_go(const Model& model, std::size_t assignment, std::uint32_t point, double distance);
     void add_smoothed(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force);
     /// @param reach above the surface within which points count as standing on it [m]
     void find_supported_points(const Model& model, std::size_t assignment, double reach);
@@ -194,8 +221,13 @@ private:
     std::vector<Candidates> candidates_;
     std::vector<std::vector<std::uint32_t>> near_surface_; ///< for each assignment, points near its rigid surface
     std::vector<std::vector<double>>
-        room_;                      ///< for each assignment, once its rigid surface acts, the reach of each point
-    std::vector<Vector3> searched_; ///< positions of the points when near_surface_ was found [m]
+        room_; ///< for each assignment, once its rigid surface acts, the reach of each point
+    /// For each assignment to an obstacle, where each point near it last was, or would be, without touching, as the
+    /// obstacle lies in its geometry [m]; not a number for points that have not been near. It tells from which side a
+    /// point came.
+    std::vector<std::vector<Vector3>> free_place_;
+    std::vector<Crossing> crossings_;       ///< in the last step
+    std::vector<Vector3> searched_;         ///< positions of the points when near_surface_ was found [m]
     std::vector<Vector3> searched_shifts_;  ///< of the obstacles [m]
     std::vector<SmoothedSurface> smoothed_; ///< for each assignment
     std::vector<SupportedPoint> supported_; ///< on a smoothed surface now; only ever grows
@@ -203,6 +235,7 @@ private:
     std::vector<double> shared_weight_; ///< of each point of a smoothed surface: sum of |w| of those that stand on it
     std::vector<double> overlap_;       ///< of each point with other points, over their reach
     std::vector<double> deepest_;
+    std::vector<std::int64_t> crossed_points_;
     ObstaclePower obstacle_power_;
     std::vector<Vector3> obstacle_reactions_; ///< and that of the laws' own surfaces [N]
     /// Contacts of each point under the assignment at hand. Friction that stops the slip of a pair within a step is

@@ -53,4 +53,13 @@ inline void add(ContactBound& bound, const Vector3& normal, const ContactPair& p
     bound.sharpest = std::max(bound.sharpest, sharpness(pair, slopes));
 }
 
+/// The same along every direction, as in the corner of several faces.
+inline void add_everywhere(ContactBound& bound, const ContactPair& pair, const ContactSlopes& slopes, double mobility)
+{
+    const Eigen::Matrix3d along = mobility * Eigen::Matrix3d::Identity();
+    bound.stiffness += slopes.stiffness * along;
+    bound.damping += slopes.damping * along;
+    bound.sharpest = std::max(bound.sharpest, sharpness(pair, slopes));
+}
+
 } // namespace periporo

@@ -17,7 +17,7 @@ namespace periporo {
 namespace {
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-constexpr const char* format = "periporo checkpoint 6";
+constexpr const char* format = "periporo checkpoint 7";
 
 std::span<const double> flat(const std::vector<Vector3>& vectors)
 {
@@ -129,7 +129,12 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
     std::ranges::transform(model.obstacles, shifts.begin(), &Obstacle::shift);
     archive.put("obstacle_shift", flat(shifts));
     archive.put("surface_room", std::span<const double>(parts.contact.rooms()));
+    const ContactForces::SurfaceTrack track = parts.contact.surface_track();
+    archive.put("surface_free_place", flat(track.free_places));
+    archive.put("surface_searched", flat(track.searched));
+    archive.put("surface_searched_shift", flat(track.searched_shifts));
     archive.put("deepest_overlap", std::span<const double>(parts.contact.deepest_overlap()));
+    archive.put("crossed_points", std::span<const std::int64_t>(parts.contact.crossed_points()));
     archive.put("frequency_mode", flat(parts.frequency.mode()));
     archive.put("mass", std::span<const double>(points.mass));
     archive.put("pore_pressure", std::span<const double>(points.pore_pressure));
@@ -226,7 +231,11 @@ void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& p
         model.obstacles[o].shift = shifts.at(o);
     parts.contact.find_candidates(model, contact_slack);
     parts.contact.set_rooms(model, archive.reals("surface_room"));
+    parts.contact.set_surface_track(model, {vectors(archive.reals("surface_free_place")),
+                                            vectors(archive.reals("surface_searched")),
+                                            vectors(archive.reals("surface_searched_shift"))});
     parts.contact.set_deepest_overlap(archive.reals("deepest_overlap"));
+    parts.contact.set_crossed_points(archive.integers("crossed_points"));
     archive.read_parts("bond_state", parts_of<double>(model.bonds.states));
     copy_checked(archive.bytes("bond_active"), model.bonds.active, "bond activity");
     copy_checked(archive.reals("point_state"), model.point_state, "point state");

@@ -24,13 +24,6 @@ struct Obstacle {
     {
         return geometry->signed_distance(position - shift, normal);
     }
-    /// May a position be nearer than `reach` [m]? False is certain.
-    bool may_touch(const Vector3& position, double reach) const
-    {
-        const Vector3 at = position - shift;
-        const Bounds bounds = geometry->bounds();
-        return ((at - bounds.upper).array() < reach).all() && ((bounds.lower - at).array() < reach).all();
-    }
 };
 
 } // namespace periporo

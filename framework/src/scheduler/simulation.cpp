@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::uint64_t steps_per_check = 50;
 constexpr double resolved_enough = 1.05; // volumes, and with them contacts, change a little between two estimates
+constexpr std::int64_t most_crossings_told = 10; // of a contact; summary.json has the number of all
 constexpr double far_overlap = 2.0; // over the reach of a contact: a point lies as deep inside as it should lie outside
 
 /// A failure that says stage, step and time already.
@@ -222,8 +223,8 @@ void Simulation::report_contacts()
     const std::vector<double>& deepest = contact_.deepest_overlap();
     for (std::size_t c = 0; c < deepest.size(); ++c)
         if (deepest[c] > far_overlap)
-            log_->warn("contact {} between {}: a point went through, {:.1f} times the reach of the law; a stiffer law "
-                       "or a thicker obstacle would hold it",
+            log_->warn("contact {} between {}: a point lay {:.1f} times the reach of the law too deep; a stiffer law "
+                       "would hold it at the surface",
                        c, fmt::join(description_.contacts[c].between, " and "), deepest[c]);
 }
 
@@ -279,6 +280,7 @@ void Simulation::take_step(const StepOptions& options, std::optional<double> end
     ++at_.stage_step;
     ++at_.step;
     ++steps_here_;
+    check_crossings();
     if (!std::isfinite(dynamics_.ledger().kinetic) || at_.stage_step % steps_per_check == 0)
         check_motion();
 }
@@ -366,6 +368,28 @@ void Simulation::check_motion()
         fail(wrong);
 }
 
+void Simulation::check_crossings()
+{
+    for (const Crossing& crossing : contact_.crossings()) {
+        const ContactDescription& contact = description_.contacts[crossing.assignment];
+        const std::size_t i = crossing.point;
+        const Vector3& x = model_.points.position[i];
+        const std::string what = fmt::format(
+            "point {} of body '{}' went through obstacle '{}' and is behind it at position ({:.5g}, {:.5g}, {:.5g}) m",
+            model_.points.id[i], model_.body_of(i).name,
+            model_.obstacles[*contact_.assignments()[crossing.assignment].obstacle].name, x.x(), x.y(), x.z());
+        if (contact.crossing_stops)
+            fail(fmt::format("{}; a stiffer law, a thicker obstacle or a smaller step would hold it, and crossing = "
+                             "\"warn\" in contact {} lets such points go",
+                             what, crossing.assignment));
+        if (contact_.crossed_points()[crossing.assignment] > most_crossings_told)
+            continue;
+        progress_.clear();
+        log_->warn("stage '{}', step {}, time {:.6g} s: {}", description_.stages[at_.stage].name, at_.step, at_.time,
+                   what);
+    }
+}
+
 bool Simulation::stop_here()
 {
     const std::chrono::duration<double> every(std::max(description_.checkpoint_every, 20.0 * checkpoint_took_.count()));
@@ -402,7 +426,8 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
     for (std::size_t c = 0; c < description_.contacts.size(); ++c)
         summary["contacts"].push_back({{"law", description_.contacts[c].law.name},
                                        {"between", description_.contacts[c].between},
-                                       {"deepest_overlap", contact_.deepest_overlap().at(c)}});
+                                       {"deepest_overlap", contact_.deepest_overlap().at(c)},
+                                       {"crossed_points", contact_.crossed_points().at(c)}});
     summary["outcome"] = outcome;
     summary["message"] = message;
     summary["steps"] = at_.step;

@@ -40,7 +40,7 @@ private:
     void enter_stage(const StageDescription& stage);
     void begin_stage();
     void end_stage();
-    /// Warns of points that went through what they touched.
+    /// Warns of points that lay deep in what they touched.
     void report_contacts();
     /// Returns false when interrupted.
     bool quasi_static(const StageDescription& stage);
@@ -52,6 +52,8 @@ private:
     void take_step(const StepOptions& options, std::optional<double> end = {});
     /// Stops the run when points are lost, or speed or energy come from nowhere.
     void check_motion();
+    /// Fails, or warns of points that went through an obstacle in the last step.
+    void check_crossings();
     bool stop_here();
     void checkpoint();
     double wall_seconds() const;

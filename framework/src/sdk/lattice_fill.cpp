@@ -290,11 +290,4 @@ PointCloud Geometry::fill(double spacing) const
     return fill_by_lattice(*this, spacing);
 }
 
-double Geometry::signed_distance(const Vector3& position, Vector3& normal) const
-{
-    static_cast<void>(position);
-    static_cast<void>(normal);
-    throw std::logic_error("this geometry does not know the distance from its surface");
-}
-
 } // namespace periporo

@@ -56,6 +56,9 @@ struct Location {
 /// the other side, where the nearest point of the deciding operand's surface may lie within another one, it is a lower
 /// bound. So what is taken away from an obstacle should reach beyond it: at a mouth that lies in one plane with the
 /// surface around it the distance is almost zero, although nothing is there.
+///
+/// The pieces of a union are those of its operands. A piece of an intersection lies in one piece of every operand: seen
+/// from inside a box that is taken away these are the planes of the box.
 class Boolean : public Geometry {
 public:
     static std::vector<Parameter> parameters()
@@ -143,6 +146,24 @@ public:
         return -largest;
     }
 
+    bool has_pieces() const override { return true; }
+
+    void find_pieces(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        if (is_union())
+            add_pieces_of_all(position, reach, false, pieces);
+        else
+            add_common_pieces(position, reach, pieces);
+    }
+
+    void find_pieces_from_within(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        if (is_union())
+            add_common_pieces(position, reach, pieces);
+        else
+            add_pieces_of_all(position, reach, true, pieces);
+    }
+
     std::vector<std::string> remarks() const override
     {
         const CountedVolume& found = counted();
@@ -160,6 +181,58 @@ private:
     };
 
     bool is_union() const { return operation_ == "union"; }
+
+    static void find_pieces(const Term& term, bool complement, const Vector3& position, double reach,
+                            SurfacePieces& pieces)
+    {
+        if (complement)
+            term.operand->find_pieces_from_within(position, reach, pieces);
+        else
+            term.operand->find_pieces(position, reach, pieces);
+    }
+
+    /// The pieces of a union of the operands, or of the complements of the terms of an intersection.
+    void add_pieces_of_all(const Vector3& position, double reach, bool complements, SurfacePieces& pieces) const
+    {
+        for (const Term& term : terms_)
+            find_pieces(term, complements && !term.complement, position, reach, pieces);
+    }
+
+    /// What pieces of all terms of the intersection have in common: a piece of every term. It is no nearer than the
+    /// farthest of them, as signed_distance() has it too.
+    void add_common_pieces(const Vector3& position, double reach, SurfacePieces& pieces) const
+    {
+        SurfacePieces common;
+        bool first = true;
+        for (const Term& term : terms_) {
+            SurfacePieces of_term;
+            Vector3 normal;
+            const double sign = term.complement ? -1.0 : 1.0;
+            const double distance = sign * term.operand->signed_distance(position, normal);
+            if (distance <= 0.0) // wherever the other terms have a surface, this one is solid
+                of_term.add(distance, sign * normal);
+            else
+                find_pieces(term, term.complement, position, reach, of_term);
+            if (first)
+                common = of_term;
+            else
+                common = in_common(common, of_term);
+            first = false;
+        }
+        for (const SurfacePiece& piece : common)
+            pieces.add(piece.distance, piece.normal);
+    }
+
+    static SurfacePieces in_common(const SurfacePieces& a, const SurfacePieces& b)
+    {
+        SurfacePieces common;
+        for (const SurfacePiece& p : a)
+            for (const SurfacePiece& q : b) {
+                const SurfacePiece& farther = p.distance > q.distance ? p : q;
+                common.add(farther.distance, farther.normal);
+            }
+        return common;
+    }
 
     /// Of the operand, not of its complement.
     static Location locate(const Term& term, const Vector3& position)

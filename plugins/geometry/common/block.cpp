@@ -63,4 +63,16 @@ double Block::signed_distance(const Vector3& position, Vector3& normal) const
     return distance.value;
 }
 
+void Block::find_pieces_from_within(const Vector3& position, double reach, SurfacePieces& pieces) const
+{
+    const Vector3 local = frame_.local(position);
+    for (int direction = 0; direction < 3; ++direction) {
+        const Vector3 axis = frame_.axes().col(direction);
+        if (const double above = local[direction] - region_.lower[direction]; above < reach)
+            pieces.add(above, axis);
+        if (const double below = region_.upper[direction] - local[direction]; below < reach)
+            pieces.add(below, -axis);
+    }
+}
+
 } // namespace periporo::geometry

@@ -27,6 +27,8 @@ public:
     PointCloud fill(double spacing) const override;
     bool has_distance() const override { return true; }
     double signed_distance(const Vector3& position, Vector3& normal) const override;
+    /// The planes of the faces.
+    void find_pieces_from_within(const Vector3& position, double reach, SurfacePieces& pieces) const override;
 
 private:
     std::string name_;

@@ -35,6 +35,11 @@ public:
     double volume() const { return moments_.volume; }
     /// See SurfaceDistance.
     SignedDistance signed_distance(const Vector3& position) const { return distance_.at(position, contains(position)); }
+    /// See SurfaceDistance.
+    void find_pieces(const Vector3& position, double reach, SurfacePieces& pieces) const
+    {
+        distance_.find_pieces(position, reach, pieces);
+    }
 
 private:
     struct Search;

@@ -7,6 +7,8 @@
 #include "common/distance.hpp"
 #include "common/triangle_mesh.hpp"
 
+#include "periporo/geometry.hpp"
+
 #include <memory>
 
 namespace periporo::geometry {
@@ -23,6 +25,8 @@ public:
     /// See Geometry::signed_distance(). At the surface itself `outward` is the normal of a facet there.
     /// @param inside whether the position is in the body, which the nearest triangle alone does not tell
     SignedDistance at(const Vector3& position, bool inside) const;
+    /// Adds all triangles nearer than `reach` [m], as seen from the side of them that the position is on.
+    void find_pieces(const Vector3& position, double reach, SurfacePieces& pieces) const;
 
 private:
     struct Search;

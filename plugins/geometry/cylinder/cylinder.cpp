@@ -107,6 +107,18 @@ public:
         return distance.value;
     }
 
+    /// The wall and the planes of the ends.
+    void find_pieces_from_within(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        const Vector3 local = frame_.transpose() * (position - origin_);
+        if (const double to_wall = radius_ - std::hypot(local.x(), local.y()); to_wall < reach)
+            pieces.add(to_wall, frame_ * -unit_vector({local.x(), local.y(), 0.0}, Vector3::UnitX()));
+        if (local.z() < reach)
+            pieces.add(local.z(), frame_.col(2));
+        if (const double to_top = height_ - local.z(); to_top < reach)
+            pieces.add(to_top, -frame_.col(2));
+    }
+
 private:
     /// With a the axis of any length, t = a.p and p from the base's centre: 0 <= t <= h |a| and |p|^2 |a|^2 - t^2 <=
     /// r^2 |a|^2, squared where a root would stand.

@@ -131,14 +131,29 @@ public:
     bool has_distance() const override { return true; }
     double signed_distance(const Vector3& position, Vector3& normal) const override
     {
-        // Not before it is asked for: the triangles of a large terrain take far more memory than its heights.
-        std::call_once(surface_made_, [&] { surface_ = std::make_unique<SurfaceDistance>(layer_.surface()); });
-        const SignedDistance distance = surface_->at(position, layer_.contains(position));
+        const SignedDistance distance = surface().at(position, layer_.contains(position));
         normal = distance.outward;
         return distance.value;
     }
 
+    bool has_pieces() const override { return true; }
+    void find_pieces(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        surface().find_pieces(position, reach, pieces);
+    }
+    void find_pieces_from_within(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        surface().find_pieces(position, reach, pieces);
+    }
+
 private:
+    /// Not made before it is asked for: the triangles of a large terrain take far more memory than its heights.
+    const SurfaceDistance& surface() const
+    {
+        std::call_once(surface_made_, [&] { surface_ = std::make_unique<SurfaceDistance>(layer_.surface()); });
+        return *surface_;
+    }
+
     Layer layer_;
     mutable std::once_flag surface_made_;
     mutable std::unique_ptr<const SurfaceDistance> surface_;

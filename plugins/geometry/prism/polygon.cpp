@@ -97,6 +97,7 @@ Polygon::Polygon(const std::vector<double>& coordinates) : corners_(points(coord
     require_simple(corners_);
     if (CGAL::orientation_2(corners_.begin(), corners_.end()) == CGAL::CLOCKWISE)
         std::reverse(corners_.begin(), corners_.end());
+    convex_ = CGAL::is_convex_2(corners_.begin(), corners_.end());
     lower_ = upper_ = vector(corners_.front());
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         const Eigen::Vector2d start = vector(corners_[i]);

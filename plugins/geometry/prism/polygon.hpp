@@ -9,6 +9,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace periporo::geometry {
@@ -30,6 +31,22 @@ public:
     double area() const;
     /// From its edges, with an outward direction in its plane; infinity for a place that is not finite.
     SignedDistance distance(double x, double y) const;
+    bool is_convex() const { return convex_; }
+    /// Calls visit(distance, unit direction away, both in the plane) for every edge nearer than `reach`, whichever side
+    /// of it the place is on.
+    template <class Visit>
+    void for_each_edge(double x, double y, double reach, const Visit& visit) const
+    {
+        for (const Edge& edge : edges_) {
+            const Eigen::Vector2d offset = Eigen::Vector2d(x, y) - edge.start;
+            const double place = std::clamp(offset.dot(edge.direction), 0.0, edge.length);
+            const Eigen::Vector2d away = offset - place * edge.direction;
+            const double distance = away.norm();
+            if (distance < reach)
+                visit(distance, distance > 0.0 ? Eigen::Vector2d(away / distance)
+                                               : Eigen::Vector2d(edge.direction.y(), -edge.direction.x()));
+        }
+    }
     /// The corners times `scale`, counter-clockwise.
     std::vector<ExactPoint2> exact_corners(const Exact& scale) const;
 
@@ -45,6 +62,7 @@ private:
     std::vector<Edge> edges_;
     Eigen::Vector2d lower_;
     Eigen::Vector2d upper_;
+    bool convex_ = false;
 };
 
 } // namespace periporo::geometry

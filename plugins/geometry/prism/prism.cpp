@@ -81,7 +81,42 @@ public:
         return distance.value;
     }
 
+    bool has_pieces() const override { return !polygon_.is_convex(); }
+
+    void find_pieces(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        if (polygon_.is_convex())
+            return Geometry::find_pieces(position, reach, pieces);
+        const Vector3 local = frame_.local(position);
+        add_sides(local, reach, pieces);
+        const SignedDistance end = distance_from_layer(local.z(), 0.0, height_, Vector3::UnitZ());
+        if (end.value < reach && polygon_.distance(local.x(), local.y()).value <= 0.0)
+            pieces.add(end.value, frame_.axes() * end.outward);
+    }
+
+    void find_pieces_from_within(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        const Vector3 local = frame_.local(position);
+        add_sides(local, reach, pieces);
+        if (local.z() < reach)
+            pieces.add(local.z(), frame_.axes().col(2));
+        if (const double to_top = height_ - local.z(); to_top < reach)
+            pieces.add(to_top, -frame_.axes().col(2));
+    }
+
 private:
+    /// The rectangles beside, seen from either side of them.
+    void add_sides(const Vector3& local, double reach, SurfacePieces& pieces) const
+    {
+        const SignedDistance end = distance_from_layer(local.z(), 0.0, height_, Vector3::UnitZ());
+        polygon_.for_each_edge(local.x(), local.y(), reach, [&](double distance, const Eigen::Vector2d& away) {
+            const SignedDistance side = distance_from_common({distance, Vector3(away.x(), away.y(), 0.0)},
+                                                             {std::max(end.value, 0.0), end.outward});
+            if (side.value < reach)
+                pieces.add(side.value, frame_.axes() * side.outward);
+        });
+    }
+
     Bounds own_bounds() const
     {
         return {{polygon_.lower().x(), polygon_.lower().y(), 0.0},

@@ -42,6 +42,15 @@ public:
         normal = distance.outward;
         return distance.value;
     }
+    bool has_pieces() const override { return true; }
+    void find_pieces(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        body_.find_pieces(position, reach, pieces);
+    }
+    void find_pieces_from_within(const Vector3& position, double reach, SurfacePieces& pieces) const override
+    {
+        body_.find_pieces(position, reach, pieces);
+    }
     std::vector<std::string> remarks() const override { return remarks_; }
 
 private:
