@@ -217,13 +217,16 @@ void ContactForces::push(const Model& model, std::size_t assignment, const Conta
     obstacle_power_.damping += damping.dot(velocity);
     obstacle_reactions_[obstacle] += reaction;
     surface_contacts_.push_back(
-        {point, at.law->friction(), way.pressing() * response.force, direction, velocity, obstacle});
+        {point, at.law->friction(), way.pressing() * response.force, direction, velocity, obstacle, response.energy});
 }
 
 void ContactForces::let_go(const Model& model, std::size_t assignment, std::uint32_t point, double distance)
 {
     crossings_.push_back({assignment, point});
     ++crossed_points_[assignment];
+    for (const SurfaceContact& before : contacts_before_)
+        if (before.point == point && before.obstacle == assignments_[assignment].obstacle)
+            energy_let_go_ += before.energy;
     std::vector<double>& room = room_[assignment];
     if (room.empty())
         room.assign(model.size(), assignments_[assignment].law->cutoff());
@@ -299,6 +302,8 @@ void ContactForces::add_reactions(const Model& model, double time_step, Approach
     obstacle_power_ = {};
     crossings_.clear();
     obstacle_reactions_.assign(model.obstacles.size() + 1, Vector3::Zero());
+    energy_let_go_ = 0.0;
+    contacts_before_.swap(surface_contacts_);
     surface_contacts_.clear();
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
         if (at_rigid_surface(assignments_[a]))

@@ -121,6 +121,8 @@ public:
 
     /// Stored in all contacts at the last add_reactions [J].
     double energy() const { return energy_; }
+    /// Stored before the last add_reactions in contacts of points that have crossed since: nothing gives it back [J].
+    double energy_let_go() const { return energy_let_go_; }
     /// Part of the normal force on each point that does not come from stored energy [N].
     const std::vector<Vector3>& damping() const { return damping_; }
     /// Friction force on each point at the last step [N].
@@ -149,6 +151,7 @@ private:
         Vector3 normal;
         Vector3 velocity;       ///< of the surface [m/s]
         std::uint32_t obstacle; ///< of the model, or as many as it has for a law's own surface
+        double energy;          ///< that the contact stores [J]
     };
     /// A point on the smoothed surface of another body.
     struct SupportedPoint {
@@ -244,6 +247,8 @@ private:
     std::vector<std::uint8_t> concerned_; ///< 1: the point may touch another of its body
     std::vector<Vector3> friction_;
     std::vector<SurfaceContact> surface_contacts_;
+    std::vector<SurfaceContact> contacts_before_; ///< at the evaluation before this one
+    double energy_let_go_ = 0.0;
     std::vector<ContactBound> bounds_;
     double sharpest_ = 0.0;
     std::vector<double> possible_; ///< for each assignment sharpest_possible() at the last bounds(), or none [1/s]

@@ -116,8 +116,8 @@ void Dynamics::update_ledger(double time_step)
     const LedgerPowers powers = ledger_powers();
     ledger.friction -= work_of_step(state_.powers.friction, powers.friction, time_step);
     ledger.collision -= work_of_step(state_.powers.collision, powers.collision, time_step);
-    ledger.boundary +=
-        work_of_step(state_.powers.boundary, powers.boundary, time_step) + time_step * buoyancy_power_;
+    ledger.collision += contact_.energy_let_go();
+    ledger.boundary += work_of_step(state_.powers.boundary, powers.boundary, time_step) + time_step * buoyancy_power_;
     state_.powers = powers;
     ledger.turned_over = std::max(ledger.turned_over, ledger.turnover());
 }
