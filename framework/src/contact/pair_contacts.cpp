@@ -282,7 +282,7 @@ std::vector<ClosedPair> ContactForces::closed_pairs(const Model& model) const
                       0.5 * reduced_mass(pair) * relative.squaredNorm() <= calm * response.energy))
                     continue;
                 closed.push_back({i, model.families.key(c)});
-                closed.push_back({p, static_cast<std::uint64_t>(opposite) << 32 | i});
+                closed.push_back({p, model.families.opposite_key(i, c, model.isometries)});
             }
     }
     std::ranges::sort(closed);

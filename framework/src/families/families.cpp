@@ -152,7 +152,7 @@ void Families::drop_one_sided(const IsometryTable& isometries)
 {
     const std::size_t n = points();
     const auto one_sided = [&](std::size_t i, std::uint32_t c) {
-        return c >= n && !holds(parent(c), static_cast<std::uint64_t>(isometries.inverse(isometry(c))) << 32 | i);
+        return c >= n && !holds(parent(c), opposite_key(static_cast<std::uint32_t>(i), c, isometries));
     };
     std::vector<std::uint8_t> concerned(n, 0);
     bool some = false;
@@ -227,25 +227,23 @@ Families Families::restore(const Points& points, IsometryTable& isometries, doub
     return families;
 }
 
-bool Families::holds(std::uint32_t point, std::uint64_t neighbour_key) const
+std::optional<std::size_t> Families::find_bond(std::uint32_t point, std::uint64_t wanted) const
 {
     const FamilyView family = (*this)[point];
-    const std::uint32_t* end = family.neighbours + family.count;
-    const std::uint32_t* at = std::lower_bound(family.neighbours, end, neighbour_key,
-                                               [this](std::uint32_t c, std::uint64_t k) { return key(c) < k; });
-    return at != end && key(*at) == neighbour_key;
-}
-
-std::size_t Families::opposite(std::uint32_t point, std::uint32_t neighbour, const IsometryTable& isometries) const
-{
-    const FamilyView family = (*this)[parent(neighbour)];
-    const std::uint64_t wanted = (static_cast<std::uint64_t>(isometries.inverse(isometry(neighbour))) << 32) | point;
     const std::uint32_t* end = family.neighbours + family.count;
     const std::uint32_t* at = std::lower_bound(family.neighbours, end, wanted,
                                                [this](std::uint32_t c, std::uint64_t k) { return key(c) < k; });
     if (at == end || key(*at) != wanted)
-        throw std::logic_error("families are not mutual: a bond has no bond in the opposite direction");
+        return std::nullopt;
     return static_cast<std::size_t>(at - family.neighbours);
+}
+
+std::size_t Families::opposite(std::uint32_t point, std::uint32_t neighbour, const IsometryTable& isometries) const
+{
+    const auto bond = find_bond(parent(neighbour), opposite_key(point, neighbour, isometries));
+    if (!bond)
+        throw std::logic_error("families are not mutual: a bond has no bond in the opposite direction");
+    return *bond;
 }
 
 std::size_t Families::bonds() const

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -76,7 +77,7 @@ public:
         return {apart_.data() + first_apart_[point], first_apart_[point + 1] - first_apart_[point]};
     }
     /// Is the neighbour with this key of the family of a point?
-    bool holds(std::uint32_t point, std::uint64_t neighbour_key) const;
+    bool holds(std::uint32_t point, std::uint64_t key) const { return find_bond(point, key).has_value(); }
 
     std::size_t points() const { return count_.size(); }
     std::size_t packs() const { return first_pack_.empty() ? 0 : first_pack_.back(); }
@@ -94,10 +95,11 @@ public:
     {
         return neighbour < count_.size() ? 0 : images_[neighbour - count_.size()].isometry;
     }
-    /// What a neighbour is called from one refresh to the next; a family is ordered by it.
-    std::uint64_t key(std::uint32_t neighbour) const
+    std::uint64_t key(std::uint32_t neighbour) const { return neighbour_key(isometry(neighbour), parent(neighbour)); }
+    /// What `point` is called by the parent of its neighbour: the image of the point that lies beside the parent.
+    std::uint64_t opposite_key(std::uint32_t point, std::uint32_t neighbour, const IsometryTable& isometries) const
     {
-        return (static_cast<std::uint64_t>(isometry(neighbour)) << 32) | parent(neighbour);
+        return neighbour_key(isometries.inverse(isometry(neighbour)), point);
     }
     /// The bond of the parent of `neighbour` in the opposite direction, towards `point` as seen from there: its number
     /// in that family.
@@ -110,6 +112,8 @@ private:
     /// Neighbours of the points of each block, one point after the other.
     using Found = std::vector<std::vector<std::uint32_t>>;
 
+    /// Number in the family of a point of the bond to the neighbour with this key.
+    std::optional<std::size_t> find_bond(std::uint32_t point, std::uint64_t key) const;
     std::vector<Vector3> positions_with_images(const Points& points, const IsometryTable& isometries) const;
     void find_neighbours(const Points& points, const IsometryTable& isometries, const FamilyRule& rule);
     void check_sizes(const Points& points) const;

@@ -38,7 +38,7 @@ bool Links::linked(std::uint32_t point, std::uint32_t neighbour, double distance
         if (distance_squared < joining * joining)
             return true;
     }
-    const std::uint64_t key = static_cast<std::uint64_t>(isometry(neighbour)) << 32 | parent(neighbour);
+    const std::uint64_t key = neighbour_key(isometry(neighbour), parent(neighbour));
     return rule_.before->holds(point, key) || std::ranges::binary_search(rule_.closed, ClosedPair{point, key});
 }
 

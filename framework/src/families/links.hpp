@@ -18,11 +18,18 @@ namespace periporo {
 
 class Families;
 
+/// What a neighbour is called from one refresh to the next: its isometry (0 for a point) and the point behind it.
+/// Families are ordered by it.
+constexpr std::uint64_t neighbour_key(std::uint32_t isometry, std::uint32_t parent)
+{
+    return std::uint64_t{isometry} << 32 | parent;
+}
+
 /// Two points of a body, or a point and an image, that were apart and have closed: from now on they are linked. Both
 /// directions are listed.
 struct ClosedPair {
     std::uint32_t point;
-    std::uint64_t key; ///< of the neighbour, as Families::key() has it
+    std::uint64_t key; ///< of the neighbour
 
     friend auto operator<=>(const ClosedPair&, const ClosedPair&) = default;
 };
