@@ -30,7 +30,7 @@ std::string load_objection(const std::string& library, const std::string& error)
                            "gfortran -shared -fPIC makes it from a source",
                            library, error);
     std::string symbol = error.substr(at + mark.size());
-    symbol = symbol.substr(0, symbol.find_first_of(" ,\"]\n"));
+    symbol = symbol.substr(0, symbol.find_first_of(" ,\"])\n"));
     return fmt::format("library \"{}\" cannot be loaded: it needs the symbol {}, which nothing provides. If it is a "
                        "routine of yours, compile its source into the library; if it belongs to a run-time library "
                        "such as gfortran's, link that one. Of the routines of Abaqus only these exist here: {}",
@@ -66,6 +66,7 @@ RoutineLibrary& RoutineLibrary::load(const std::string& library)
     const std::lock_guard alone(loading);
     check_path(library);
     share_utility_routines();
+    watch_end_of_process();
     boost::dll::shared_library file;
     try {
         using boost::dll::load_mode::type;

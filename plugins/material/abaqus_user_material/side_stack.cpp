@@ -67,6 +67,11 @@ SideStack::Ending SideStack::run(void (*function)(void*), void* argument)
     return ending_;
 }
 
+bool SideStack::in_use()
+{
+    return current != nullptr;
+}
+
 void SideStack::leave()
 {
     if (current != nullptr)

@@ -30,6 +30,9 @@ public:
     /// Returns only where the thread has none.
     static void leave();
 
+    /// Is this thread inside a function that run() called?
+    static bool in_use();
+
 private:
     static void enter();
 

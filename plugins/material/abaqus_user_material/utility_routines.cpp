@@ -21,6 +21,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace periporo::abaqus {
 
@@ -103,11 +104,11 @@ bool report(int lop, const std::string& message)
     return lop <= -3;
 }
 
-void exit_routine()
+[[noreturn]] void exit_routine(const char* cause = "XIT or XPLB_EXIT")
 {
     SideStack::leave();
     // a thread that the routine itself started: neither can it be returned to nor does anyone wait for it
-    std::fprintf(stderr, "a user routine called XIT or XPLB_EXIT in a thread of its own\n");
+    std::fprintf(stderr, "a user routine called %s in a thread of its own\n", cause);
     std::abort();
 }
 
@@ -130,6 +131,12 @@ void forget_reported_error()
 const std::string& reported_error()
 {
     return error_text;
+}
+
+void leave_with_error(std::string text)
+{
+    error_text = std::move(text);
+    exit_routine(error_text.c_str());
 }
 
 } // namespace periporo::abaqus

@@ -19,8 +19,14 @@ void share_utility_routines();
 
 /// Forgets the error of this thread.
 void forget_reported_error();
-/// What this thread's routine reported by STDB_ABQERR or XPLB_ABQERR as an error (LOP = -2 or -3); empty when it did
-/// not.
+/// What this thread's routine reported by STDB_ABQERR or XPLB_ABQERR as an error (LOP = -2 or -3), or ended with, as by
+/// STOP; empty when it did neither.
 const std::string& reported_error();
+
+/// Keeps the text as the error of this thread and leaves the routine that it is in.
+[[noreturn]] void leave_with_error(std::string text);
+
+/// Ends the process with a message and exit status 1 when a routine calls exit(). To be called again does nothing.
+void watch_end_of_process();
 
 } // namespace periporo::abaqus

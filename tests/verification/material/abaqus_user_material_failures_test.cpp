@@ -13,7 +13,9 @@
 
 #include <initializer_list>
 #include <string>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 using namespace periporo;
@@ -24,7 +26,18 @@ namespace {
 using Tensor6 = SymmetricTensor<double>;
 
 // as in misbehaving.c
-enum Way { smaller_step = 1, leave, stop_with_error, report_error, warn, not_finite, state_not_finite, past_state };
+enum Way {
+    smaller_step = 1,
+    leave,
+    stop_with_error,
+    report_error,
+    warn,
+    not_finite,
+    state_not_finite,
+    past_state,
+    stop_statement,
+    end_program
+};
 
 std::unique_ptr<Material> misbehaving(Way way, const char* interface = "umat")
 {
@@ -145,6 +158,63 @@ TEST_CASE("writing past the state variables is noticed")
     REQUIRE_FALSE(status.converged);
     check_mentions(status.reason, {"past the end", "state_variables is too small"});
 }
+
+TEST_CASE("STOP is a failure of that bond with its text, and the routine can be called again")
+{
+    const auto material = misbehaving(stop_statement);
+    for (int n = 0; n < 3; ++n)
+        check_failure(*material, {"umat_ of", "misbehaving.so", "STOP: bad props"});
+    MaterialPoint point(*material);
+    CHECK(point.step(Tensor6{}, 1e-4).converged);
+}
+
+TEST_CASE("a routine that calls exit(0) does not make the run a success")
+{
+    const auto material = misbehaving(end_program);
+    kit::Block block = block_of(*material);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        block.update(1e-4);
+        ::_exit(42); // the routine returned
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 1);
+}
+
+#ifdef PERIPORO_TEST_FORTRAN
+TEST_CASE("what ends a program in Fortran is a failure that says what it was")
+{
+    const auto reason_of = [](double property) {
+        const auto material =
+            material_of_library("ending_fortran", "umat",
+                                {{"properties", std::vector<double>{property}}, {"state_variables", std::int64_t{1}}});
+        MaterialPoint point(*material);
+        const MaterialStatus status = point.step(Tensor6{}, 1e-4);
+        CHECK_FALSE(status.converged);
+        return std::string(status.reason != nullptr ? status.reason : "");
+    };
+    check_mentions(reason_of(1.0), {"umat_ of", "STOP: bad props"});
+    check_mentions(reason_of(2.0), {"STOP 7"});
+    check_mentions(reason_of(3.0), {"ERROR STOP: worse props"});
+    check_mentions(reason_of(4.0), {"CALL EXIT(3)"});
+    check_mentions(reason_of(9.0), {"line", "'9'", "above upper bound of 3"}); // -fcheck=bounds
+}
+
+TEST_CASE("a VUMAT compiles with the include file of the page, and runs")
+{
+    const auto material =
+        material_of_library("plain_vumat_fortran", "vumat",
+                            {{"properties", std::vector<double>{1e6}}, {"state_variables", std::int64_t{0}}});
+    MaterialPoint point(*material);
+    Tensor6 strain;
+    strain.yy = 1e-3;
+    REQUIRE(point.step(strain, 1e-4).converged);
+    CHECK(point.stress().yy == doctest::Approx(1e3));
+    CHECK(point.stress().xx == 0.0);
+}
+#endif
 
 TEST_CASE("the bond that fails keeps stress and state, those before it have the new ones")
 {

@@ -13,7 +13,21 @@ void xplb_exit_(void);
 void stdb_abqerr_(const int* lop, const char* text, const int* integers, const double* reals, const char* texts,
                   size_t text_length, size_t texts_length);
 
-enum Way { smaller_step = 1, leave, stop_with_error, report_error, warn, not_finite, state_not_finite, past_state };
+/* of gfortran's run-time library: what it makes of STOP 'bad props' */
+void _gfortran_stop_string(const char* text, size_t length, _Bool quiet);
+
+enum Way {
+    smaller_step = 1,
+    leave,
+    stop_with_error,
+    report_error,
+    warn,
+    not_finite,
+    state_not_finite,
+    past_state,
+    stop_statement,
+    end_program
+};
 
 static void message(int lop, int number)
 {
@@ -52,6 +66,11 @@ UMAT_ROUTINE(umat_)
     case past_state:
         statev[*nstatv] = 1.0;
         return;
+    case stop_statement:
+        _gfortran_stop_string("bad props", 9, 0);
+        abort(); /* nor does STOP */
+    case end_program:
+        exit(0);
     }
 }
 
