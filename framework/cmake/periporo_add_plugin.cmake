@@ -18,6 +18,15 @@ set(PERIPORO_PACK_OPTIONS
   $<$<CXX_COMPILER_ID:GNU>:--param=inline-unit-growth=400>
   $<$<CXX_COMPILER_ID:GNU>:--param=large-function-growth=2000>)
 
+# GCC 12 sees uninitialised values in its own AVX-512 headers (GCC bug 105593), hence the exception.
+function(_periporo_warn target)
+  if(COMMAND periporo_project_warnings)
+    periporo_project_warnings(${target})
+  else()
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wno-maybe-uninitialized)
+  endif()
+endfunction()
+
 # The test program of a plugin, made of the test's sources and of what the plugin was compiled to.
 function(_periporo_add_plugin_test plugin name sources libraries)
   find_package(doctest 2.4 REQUIRED)
@@ -27,9 +36,7 @@ function(_periporo_add_plugin_test plugin name sources libraries)
   # doctest puts its main() into one source of the program.
   list(GET sources 0 first)
   set_property(SOURCE ${first} APPEND PROPERTY COMPILE_DEFINITIONS DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN)
-  if(COMMAND periporo_project_warnings)
-    periporo_project_warnings(${plugin}_test)
-  endif()
+  _periporo_warn(${plugin}_test)
   add_test(NAME ${name} COMMAND ${plugin}_test)
 endfunction()
 
@@ -57,9 +64,7 @@ function(periporo_add_plugin)
   if(PLUGIN_KIND STREQUAL material)
     target_compile_options(${target} PRIVATE ${PERIPORO_PACK_OPTIONS})
   endif()
-  if(COMMAND periporo_project_warnings)
-    periporo_project_warnings(${target})
-  endif()
+  _periporo_warn(${target})
   set_property(GLOBAL APPEND PROPERTY PERIPORO_PLUGIN_TARGETS ${target})
   install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/periporo)
   if(PLUGIN_TEST)

@@ -27,6 +27,7 @@
 #include "periporo/kit/step_convergence.hpp"
 #include "periporo/kit/stiffness.hpp"
 #include "periporo/kit/tension.hpp"
+#include "periporo/kit/unset.hpp"
 
 #include <exception>
 
@@ -59,9 +60,10 @@ inline Faults check_material(const Material& material, const Range& range = {})
     if (!faults.empty())
         return faults; // the others build on these
     for (Faults (*check)(const Material&, const Range&) :
-         {check_initial_state, check_elastic_response, check_elastic_loop, check_objectivity, check_step_convergence,
-          check_tension, check_dissipation, check_stiffness, check_restart, check_repetition, check_threads,
-          check_lanes, check_inactive_lanes, check_huge_steps, check_not_finite_input, check_failure_names_bond})
+         {check_unset, check_initial_state, check_elastic_response, check_elastic_loop, check_objectivity,
+          check_step_convergence, check_tension, check_dissipation, check_stiffness, check_restart, check_repetition,
+          check_threads, check_lanes, check_inactive_lanes, check_huge_steps, check_not_finite_input,
+          check_failure_names_bond})
         detail::collect(faults, [&] { return check(material, range); });
     return faults;
 }

@@ -24,6 +24,8 @@
 #include "periporo/tensor.hpp"
 
 #include <array>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 
 namespace periporo {
@@ -66,7 +68,13 @@ public:
 
     static std::vector<Parameter> parameters() { return Law::parameters(); }
 
-    explicit LawMaterial(const Parameters& parameters) : law_(parameters), variables_(Law::state_variables()) {}
+    /// @throws std::logic_error when state_variables() of the law lists more or fewer than state_count
+    explicit LawMaterial(const Parameters& parameters) : law_(parameters), variables_(Law::state_variables())
+    {
+        if (variables_.size() != state_count)
+            throw std::logic_error("the law's state_count is " + std::to_string(state_count) +
+                                   ", but its state_variables() lists " + std::to_string(variables_.size()));
+    }
 
     const Law& law() const { return law_; }
     const std::vector<StateVariable>& state_variables() const override { return variables_; }

@@ -28,6 +28,18 @@ TEST_CASE("a sound law has no faults")
         FAIL_CHECK(fault);
 }
 
+TEST_CASE("a value that a law forgets to set is noticed, of the initial state and of an update")
+{
+    check_mentions(said_by<Fault::unset_initial_state>("unset values"), {"initialize", "shear_strain"});
+    check_mentions(said_by<Fault::unset_state>("unset values"), {"update", "shear_strain"});
+}
+
+TEST_CASE("a law that miscounts its state variables is refused")
+{
+    CHECK_THROWS_WITH_AS(LawMaterial<LittleLaw<Fault::miscounted>>(little_parameters<Fault::none>()),
+                         "the law's state_count is 2, but its state_variables() lists 1", std::logic_error);
+}
+
 TEST_CASE("a law that knows the x axis is not objective")
 {
     check_mentions(said_by<Fault::direction>("objectivity"), {"with everything turned", "the stress is", "off by"});

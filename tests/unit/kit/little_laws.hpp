@@ -33,7 +33,10 @@ enum class Fault {
     weak_initial_state,   ///< initialize finds a strength below the stress
     endless_search,       ///< takes long when strains are huge
     packs_differ,         ///< gives packs another answer than a double
-    initial_packs_differ  ///< gives packs another initial state than a double
+    initial_packs_differ, ///< gives packs another initial state than a double
+    unset_initial_state,  ///< leaves one variable of the initial state unset
+    unset_state,          ///< leaves one state variable unset in an update
+    miscounted            ///< lists one state variable too few
 };
 
 /// A cohesionless cone q <= M p without dilation, whose friction M hardens from 0.4 towards its limit:
@@ -56,8 +59,12 @@ public:
 
     static std::vector<StateVariable> state_variables()
     {
-        return {{"friction", "-", "Stress ratio M at which the material yields", first_friction},
-                {"shear_strain", "-", "Equivalent plastic shear strain", 0.0, true}};
+        std::vector<StateVariable> list = {
+            {"friction", "-", "Stress ratio M at which the material yields", first_friction},
+            {"shear_strain", "-", "Equivalent plastic shear strain", 0.0, true}};
+        if (fault == Fault::miscounted)
+            list.pop_back();
+        return list;
     }
 
     explicit LittleLaw(const Parameters& parameters)
@@ -106,7 +113,8 @@ public:
                 square_root(Real(1.0 - 1e-3 * double_contraction(old.strain_increment, old.strain_increment)));
         const Real strain = excess * (1.0 / (3.0 * shear_modulus_));
         result.state[0] = old.state[0] + 100.0 * (friction_ - old.state[0]) * strain / (1.0 + 100.0 * strain);
-        result.state[1] = old.state[1] + strain;
+        if (fault != Fault::unset_state)
+            result.state[1] = old.state[1] + strain;
         return result;
     }
 
@@ -122,6 +130,11 @@ public:
             friction = Real(0.01);
         if (fault == Fault::initial_packs_differ && !std::is_same_v<Real, double>)
             friction *= Real(1.001);
+        if (fault == Fault::unset_initial_state) {
+            std::array<Real, 2> state;
+            state[0] = friction;
+            return state;
+        }
         return {friction, Real(0.0)};
     }
 
