@@ -70,6 +70,10 @@ public:
     /// Energy that the contacts within bodies store at the positions of the records [J].
     double energy_within_bodies(const Model& model);
 
+    /// Of each point the energy that it stores on smoothed surfaces, at the positions of the records [J]. Find support
+    /// anew, and the surface may be another: what a point then stores less is lost.
+    void energy_on_smoothed(const Model& model, std::vector<double>& energy);
+
     /// A point that lies deep in a rigid surface when that first acts, as a lattice puts it that does not follow the
     /// surface, takes the room that it finds: its reach is its distance, and grows to the whole when it moves away.
     /// With the whole reach at once the overlap would be energy from nowhere. To be called when a stage begins.

@@ -34,8 +34,7 @@ void ContactForces::find_supported_points(const Model& model, std::size_t assign
         supported.point = surface.near()[n];
         ++supported_count_;
         for (std::size_t m = 0; m < supported.support.records.size(); ++m)
-            shared_weight_[model.families.parent(supported.support.records[m])] +=
-                std::abs(supported.support.weights[m]);
+            shared_weight_[model.families.parent(supported.support.records[m])] += supported.support.slopes[m].norm();
     }
 }
 
@@ -45,7 +44,7 @@ ContactForces::Carrier ContactForces::carrier(const Model& model, const Support&
     for (std::size_t m = 0; m < support.records.size(); ++m) {
         const std::uint32_t p = model.families.parent(support.records[m]);
         carrier.volume += support.weights[m] * model.points.volume[p];
-        const double own = std::abs(support.weights[m]);
+        const double own = support.slopes[m].norm();
         carrier.mobility += own * (crowd.empty() ? own : crowd[p]) / model.points.mass[p];
     }
     return carrier;
@@ -59,35 +58,42 @@ void ContactForces::press(const Model& model, std::size_t assignment, const Supp
     const Points& points = model.points;
     const std::uint32_t i = supported.point;
     Vector3 surface_velocity = Vector3::Zero();
-    for (std::size_t m = 0; m < support.records.size(); ++m)
-        surface_velocity += support.weights[m] * model.records[support.records[m]].v();
+    double opening = support.own_slope.dot(model.records[i].v());
+    for (std::size_t m = 0; m < support.records.size(); ++m) {
+        const Vector3 velocity = model.records[support.records[m]].v();
+        surface_velocity += support.weights[m] * velocity;
+        opening += support.slopes[m].dot(velocity);
+    }
     const Carrier below = carrier(model, support, shared_weight_);
-    const Vector3 relative = model.records[i].v() - surface_velocity;
-    const double opening = relative.dot(support.normal);
     const ContactPair pair{support.distance, -approach_factor_ * opening, points.volume[i], below.volume,
                            points.mass[i],   1.0 / below.mobility,        law_step_};
     ContactResponse response;
     law.evaluate({&pair, 1}, {&response, 1});
     note_overlap(assignment, (law.cutoff() - support.distance) / law.cutoff());
-    point_energy_[i] += response.energy;
+    point_energy_[i] += support.strength * response.energy;
 
-    const Vector3 slip = relative - opening * support.normal;
+    const Vector3 relative = model.records[i].v() - surface_velocity;
+    const Vector3 slip = relative - relative.dot(support.normal) * support.normal;
     const double speed = slip.norm();
+    const double pressing = support.strength * std::max(0.0, response.force);
     Vector3 friction = Vector3::Zero();
     if (speed > 0.0 && time_step > 0.0) {
         const double stops = reduced_mass(pair) * speed / time_step;
-        friction = -(std::min(law.friction() * std::max(0.0, response.force), stops) / speed) * slip;
+        friction = -(std::min(law.friction() * pressing, stops) / speed) * slip;
     }
-    const Vector3 damping = response.damping_force * support.normal;
-    const Vector3 reaction = response.force * support.normal + friction;
-    const auto give_all = [&](const Vector3& vector, std::vector<Vector3>& to) {
-        to[i] += vector;
-        for (std::size_t m = 0; m < support.records.size(); ++m)
-            give(model, support.records[m], -support.weights[m] * vector, to);
-    };
-    give_all(reaction, force);
-    give_all(friction, friction_);
-    give_all(damping, damping_);
+    // minus the gradient of strength times energy, and the dashpot and friction along the same paths
+    const double push = support.strength * response.force;
+    const double damping = support.strength * response.damping_force;
+    force[i] += push * support.own_slope - response.energy * support.own_fade + friction;
+    friction_[i] += friction;
+    damping_[i] += damping * support.own_slope;
+    for (std::size_t m = 0; m < support.records.size(); ++m) {
+        const std::uint32_t record = support.records[m];
+        const Vector3 shared = -support.weights[m] * friction;
+        give(model, record, push * support.slopes[m] - response.energy * support.fades[m] + shared, force);
+        give(model, record, shared, friction_);
+        give(model, record, damping * support.slopes[m], damping_);
+    }
 }
 
 void ContactForces::add_smoothed(const Model& model, std::size_t assignment, double time_step,
@@ -99,10 +105,32 @@ void ContactForces::add_smoothed(const Model& model, std::size_t assignment, dou
         press(model, assignment, supported_[s], time_step, force);
 }
 
+void ContactForces::energy_on_smoothed(const Model& model, std::vector<double>& energy)
+{
+    energy.assign(model.size(), 0.0);
+    for (std::size_t a = 0; a < assignments_.size() && a < smoothed_.size(); ++a) {
+        if (!assignments_[a].surface_body)
+            continue;
+        const Contact& law = *assignments_[a].law;
+        find_supported_points(model, a, law.cutoff());
+        for (std::size_t s = 0; s < supported_count_; ++s) {
+            const auto& [i, support] = supported_[s];
+            const Carrier alone = carrier(model, support, {});
+            const ContactPair pair{
+                support.distance,     0.0, model.points.volume[i], alone.volume, model.points.mass[i],
+                1.0 / alone.mobility, 0.0};
+            ContactResponse response;
+            law.evaluate({&pair, 1}, {&response, 1});
+            energy[i] += support.strength * response.energy;
+        }
+    }
+}
+
 void ContactForces::bound_supported(const Model& model, std::size_t assignment, double margin)
 {
-    // (u_i - sum w_p u_p) . n is, squared, at most 2 (u_i . n)^2 + 2 sum |w| sum |w_p| (u_p . n)^2. What the surface is
-    // to a point that stands on it alone is never lighter than what it is in a crowd, and no dashpot is weaker there.
+    // (u_i . g_i + sum u_p . g_p) is, squared, at most 2 (u_i . g_i)^2 + 2 sum |g| sum (u_p . g_p)^2/|g_p| with the
+    // slopes g of the distance. What the surface is to a point that stands on it alone is never lighter than what it is
+    // in a crowd, and no dashpot is weaker there. The rim bears less than it does here.
     const Contact& law = *assignments_[assignment].law;
     find_supported_points(model, assignment, law.cutoff() + margin);
     for (std::size_t s = 0; s < supported_count_; ++s) {
@@ -111,15 +139,18 @@ void ContactForces::bound_supported(const Model& model, std::size_t assignment, 
         const Carrier alone = carrier(model, support, {});
         const ContactPair pair{0.0, 0.0, model.points.volume[i], alone.volume, mass, 1.0 / alone.mobility};
         const ContactSlopes both = slopes(law, pair);
-        add(bounds_[i], support.normal, pair, both, 2.0 / mass);
-        double weights = 0.0;
-        for (const double weight : support.weights)
-            weights += std::abs(weight);
+        add(bounds_[i], support.own_slope, pair, both, 2.0 / mass);
+        double sum = 0.0;
+        for (const Vector3& slope : support.slopes)
+            sum += slope.norm();
         for (std::size_t m = 0; m < support.records.size(); ++m) {
+            const double size = support.slopes[m].norm();
+            if (size <= 0.0)
+                continue;
             const std::uint32_t p = model.families.parent(support.records[m]);
             const Isometry& isometry = model.isometries[model.families.isometry(support.records[m])];
-            add(bounds_[p], isometry.rotation.transpose() * support.normal, pair, both,
-                2.0 * weights * std::abs(support.weights[m]) / model.points.mass[p]);
+            add(bounds_[p], isometry.rotation.transpose() * support.slopes[m] / size, pair, both,
+                2.0 * sum * size / model.points.mass[p]);
         }
     }
 }

@@ -5,8 +5,6 @@
 
 #include "families/cell_list.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -14,21 +12,29 @@ namespace periporo {
 namespace {
 
 constexpr double support_radius = 1.8; ///< of the fit along the surface, in spacings: three points across on a lattice
-constexpr double shadow_radius = 1.7;  ///< in spacings; a point with another one above it within it is no surface point
-constexpr double shadow_cosine = 0.5;  ///< "above" is within 60 degrees of the normal
-/// The mean of the points of the fit lies this far to the side, in spacings, at half a spacing outside the last row:
-/// there the body ends.
-constexpr double end_of_surface = 0.9;
-constexpr double singular_fit = 1e-6; ///< ratio of the pivots below which the points of a fit lie on one line
-/// Sum of |w| from which a fit leans out beyond its points: 1 inside a surface, 2 at half a spacing outside the last
-/// row. Three points almost in a row at a rim once bore a reaction with weights of thousands: no step is stable then.
-constexpr double largest_lever = 3.0;
+/// A point is no surface point when another lies above it: the nearer to the normal and the closer, the less of one.
+/// In a lattice points at the surface have others at up to a cosine of 0.53, points below it have one at 0.82 or more.
+constexpr double free_cosine = 0.57, covered_cosine = 0.78;
+constexpr double covered_distance = 1.55, free_distance = 1.85; ///< in spacings
+/// Cosine of the normal of a surface point to that of the fit. The points of the next layer down the side of a block
+/// have 0.40 to its upper face and less, those at its edges and corners have 0.58 and more.
+constexpr double aside_cosine = 0.42, facing_cosine = 0.56;
+constexpr int fits_of_side = 3; ///< with points on all sides first, then with those that face the normal of the last
+/// Spread of a fit, in squared spacings, from which the surface bears wholly. It is 0.5 inside a lattice, 0.25 above
+/// the last row, 0.13 above a corner, and 0.04 at half a spacing beyond the last row.
+constexpr double bearing_spread = 0.1;
+constexpr double least_spread = 0.02; ///< in squared spacings, below which it bears nothing
 
-/// Smooth and zero from distance 1 on.
-double bell(double squared_distance)
+struct Step {
+    double value;
+    double slope;
+};
+
+/// From 0 at `from` to 1 at `to`, with a slope that begins and ends at 0.
+Step smooth_step(double x, double from, double to)
 {
-    const double left = 1.0 - squared_distance;
-    return left > 0.0 ? left * left : 0.0;
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return {t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / (to - from)};
 }
 
 /// Direction away from the family of a point, or zero when the family is on all sides alike.
@@ -42,49 +48,63 @@ Vector3 outward_normal(const Model& model, std::size_t point)
     return size > 0.0 ? Vector3(-inward / size) : Vector3(Vector3::Zero());
 }
 
-bool is_covered(const Model& model, std::size_t point, const Vector3& normal)
+/// 1 for a point at the surface, 0 for one below it.
+double share_in_surface(const Model& model, std::size_t point, const Vector3& normal)
 {
     const FamilyView family = model.families[point];
-    const double radius = shadow_radius * model.spacing;
-    return std::any_of(family.neighbours, family.neighbours + family.count, [&](std::uint32_t c) {
-        const Vector3 apart = model.records[c].x() - model.records[point].x();
+    double share = 1.0;
+    for (std::size_t b = 0; b < family.count && share > 0.0; ++b) {
+        const Vector3 apart = model.records[family.neighbours[b]].x() - model.records[point].x();
         const double distance = apart.norm();
-        return distance < radius && apart.dot(normal) > shadow_cosine * distance;
-    });
+        if (distance >= free_distance * model.spacing || apart.dot(normal) <= free_cosine * distance)
+            continue;
+        const double above = smooth_step(apart.dot(normal) / distance, free_cosine, covered_cosine).value;
+        const double close = smooth_step(distance / model.spacing, free_distance, covered_distance).value;
+        share = std::min(share, 1.0 - above * close);
+    }
+    return share;
 }
 
 } // namespace
 
-void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::uint32_t other_body, double reach,
-                           double slack)
+void SmoothedSurface::find_nodes(const Model& model, std::uint32_t surface_body)
 {
-    const std::size_t n = model.size();
     nodes_.clear();
-    near_.clear();
-    candidates_.clear();
-    first_.assign(1, 0);
-    reach_ = std::hypot(support_radius * model.spacing, reach + 0.5 * model.spacing);
+    const std::size_t n = model.size();
     std::vector<Vector3> normals(n, Vector3::Zero());
+    std::vector<double> shares(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         if (model.points.body[i] != surface_body)
             continue;
-        const Vector3 normal = outward_normal(model, i);
-        if (!is_covered(model, i, normal))
-            normals[i] = normal;
+        normals[i] = outward_normal(model, i);
+        if (!normals[i].isZero(0.0))
+            shares[i] = share_in_surface(model, i, normals[i]);
     }
-    std::vector<Vector3> positions;
     for (std::uint32_t c = 0; c < model.records.size(); ++c) {
-        const Vector3& normal = normals[model.families.parent(c)];
-        if (normal.isZero(0.0))
-            continue;
-        nodes_.push_back({c, model.isometries[model.families.isometry(c)].direction(normal)});
-        positions.push_back(model.records[c].x());
+        const std::uint32_t p = model.families.parent(c);
+        if (shares[p] > 0.0)
+            nodes_.push_back({c, model.isometries[model.families.isometry(c)].direction(normals[p]), shares[p]});
     }
+}
+
+void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::uint32_t other_body, double reach,
+                           double slack)
+{
+    near_.clear();
+    candidates_.clear();
+    first_.assign(1, 0);
+    spacing_ = model.spacing;
+    reach_ = std::hypot(support_radius * model.spacing, reach + 0.5 * model.spacing);
+    find_nodes(model, surface_body);
+    shares_.clear();
+    outwards_.clear();
     if (nodes_.empty())
         return;
+    std::vector<Vector3> positions(nodes_.size());
+    std::ranges::transform(nodes_, positions.begin(), [&](const Node& node) { return model.records[node.record].x(); });
     const double search = reach_ + slack;
     const CellList cells(positions, search);
-    for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t i = 0; i < model.size(); ++i) {
         if (model.points.body[i] != other_body)
             continue;
         const Vector3 x = model.records[i].x();
@@ -96,60 +116,88 @@ void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::
             continue;
         near_.push_back(i);
         first_.push_back(candidates_.size());
+        shares_.resize(candidates_.size());
+        outwards_.emplace_back(Vector3::Zero());
+        weigh_sides(model, near_.size() - 1);
     }
+}
+
+void SmoothedSurface::weigh_sides(const Model& model, std::size_t n)
+{
+    const Vector3 x = model.records[near_[n]].x();
+    Vector3& outwards = outwards_[n];
+    for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
+        const Node& node = nodes_[candidates_[c]];
+        // a radius in which each candidate has a weight
+        const double squared = (model.records[node.record].x() - x).squaredNorm() / (reach_ * reach_);
+        outwards += node.share / (1.0 + squared * squared * squared) * node.normal;
+    }
+    Vector3 normal = outwards.normalized();
+    for (int round = 0; round < fits_of_side; ++round) {
+        // In the first round only those that look the other way are left out.
+        const double from = round == 0 ? -0.5 : aside_cosine, to = round == 0 ? 0.0 : facing_cosine;
+        for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
+            const Node& node = nodes_[candidates_[c]];
+            shares_[c] = node.share * smooth_step(node.normal.dot(normal), from, to).value;
+        }
+        PlaneFit plane = fit(model, n);
+        if (!plane.solve(normal))
+            return;
+        normal = plane.normal();
+    }
+    outwards = normal;
+}
+
+PlaneFit SmoothedSurface::fit(const Model& model, std::size_t n) const
+{
+    const Vector3 x = model.records[near_[n]].x();
+    PlaneFit plane;
+    for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
+        const Vector3 place = model.records[nodes_[candidates_[c]].record].x() - x;
+        const double weight = shares_[c] * bell(place.squaredNorm() / (reach_ * reach_)).value;
+        if (weight > 0.0)
+            plane.add(weight, place);
+    }
+    return plane;
 }
 
 bool SmoothedSurface::find_support(const Model& model, std::size_t n, Support& support) const
 {
     const Vector3 x = model.records[near_[n]].x();
+    const double per_area = 1.0 / (spacing_ * spacing_), per_reach = 1.0 / (reach_ * reach_);
+    PlaneFit plane = fit(model, n);
+    if (!plane.solve(outwards_[n]) || plane.spread() * per_area <= least_spread)
+        return false;
+    const Step strength = smooth_step(plane.spread() * per_area, least_spread, bearing_spread);
+    support.normal = plane.normal();
+    support.distance = plane.height() - 0.5 * spacing_;
+    support.strength = strength.value;
     support.records.clear();
     support.weights.clear();
-    support.normal.setZero();
-    const double across = 1.0 / (reach_ * reach_);
-    for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
-        const Node& node = nodes_[candidates_[c]];
-        support.normal += bell(across * (model.records[node.record].x() - x).squaredNorm()) * node.normal;
-    }
-    const double size = support.normal.norm();
-    if (!(size > 0.0))
-        return false;
-    support.normal /= size;
-
-    // Weights bell(xi) (a + b . xi) with xi along the surface, in spacings; a and b from the conditions on them.
-    const double radius = support_radius * model.spacing;
-    const Vector3 first_axis = support.normal.unitOrthogonal();
-    const Vector3 second_axis = support.normal.cross(first_axis);
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    const auto features = [&](std::uint32_t record) {
-        const Vector3 apart = (model.records[record].x() - x) / radius;
-        return Vector3(1.0, apart.dot(first_axis), apart.dot(second_axis));
-    };
+    support.slopes.clear();
+    support.fades.clear();
+    support.own_slope.setZero();
+    support.own_fade.setZero();
     for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
         const std::uint32_t record = nodes_[candidates_[c]].record;
-        const Vector3 feature = features(record);
-        const double weight = bell(feature.tail<2>().squaredNorm());
+        const Vector3 place = model.records[record].x() - x;
+        const Bell around = bell(place.squaredNorm() * per_reach);
+        const double weight = shares_[c] * around.value;
         if (weight <= 0.0)
             continue;
+        const Vector3 by_weight = 2.0 * per_reach * shares_[c] * around.slope * place;
+        const auto in_all = [&](const PlaneFit::Slope& slope) {
+            return Vector3(weight * slope.by_place + slope.by_weight * by_weight);
+        };
         support.records.push_back(record);
-        support.weights.push_back(weight);
-        moments += weight * feature * feature.transpose();
+        support.weights.push_back(weight * plane.part(place));
+        support.slopes.push_back(in_all(plane.slope_of_height(place)));
+        support.own_slope -= support.slopes.back();
+        support.fades.push_back(strength.slope > 0.0
+                                    ? Vector3(strength.slope * per_area * in_all(plane.slope_of_spread(place)))
+                                    : Vector3(Vector3::Zero()));
+        support.own_fade -= support.fades.back();
     }
-    if (support.records.empty() || moments.col(0).tail<2>().norm() * support_radius > end_of_surface * moments(0, 0))
-        return false;
-    const Eigen::LDLT<Eigen::Matrix3d> solver(moments);
-    if (!(solver.vectorD().minCoeff() > singular_fit * solver.vectorD().maxCoeff()))
-        return false;
-    const Vector3 coefficients = solver.solve(Vector3::UnitX());
-    Vector3 foot = Vector3::Zero();
-    double weights = 0.0;
-    for (std::size_t m = 0; m < support.records.size(); ++m) {
-        support.weights[m] *= coefficients.dot(features(support.records[m]));
-        weights += std::abs(support.weights[m]);
-        foot += support.weights[m] * model.records[support.records[m]].x();
-    }
-    if (!(weights < largest_lever))
-        return false;
-    support.distance = (x - foot).dot(support.normal) - 0.5 * model.spacing;
     return true;
 }
 

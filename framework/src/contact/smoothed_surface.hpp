@@ -4,6 +4,7 @@
 // The surface of a deformable body as another body feels it: smooth, although it is made of points.
 #pragma once
 
+#include "contact/surface_fit.hpp"
 #include "model/model.hpp"
 
 #include <cstdint>
@@ -11,22 +12,26 @@
 
 namespace periporo {
 
-/// What a point would stand on.
+/// The plane that a point would stand on.
 struct Support {
-    Vector3 normal = Vector3::Zero();   ///< of the surface, outwards
-    double distance = 0.0;              ///< of the point above the surface [m]
-    std::vector<std::uint32_t> records; ///< points and images of the surface
-    std::vector<double> weights;        ///< of each; they sum to 1
+    Vector3 normal = Vector3::Zero();    ///< of the surface, outwards
+    double distance = 0.0;               ///< of the point above the surface [m]
+    double strength = 0.0;               ///< 1 inside the surface, falling to 0 beyond its rim
+    std::vector<std::uint32_t> records;  ///< points and images of the surface
+    std::vector<double> weights;         ///< of each; they sum to 1, and friction is shared by them
+    Vector3 own_slope = Vector3::Zero(); ///< derivative of the distance by the place of the point
+    std::vector<Vector3> slopes;         ///< and by the place of each record
+    Vector3 own_fade = Vector3::Zero();  ///< derivative of the strength by the place of the point [1/m]
+    std::vector<Vector3> fades;          ///< and by the place of each record [1/m]
 };
 
-/// The surface is a plane fitted to the surface points near the foot of the point that looks for it, by moving least
-/// squares (Lancaster and Salkauskas, Math. Comp. 37, 1981): weights w_c with
+/// The surface is a plane fitted to the surface points around the point that looks for it, half a spacing outside them:
+/// see SurfaceFit. The distance and the strength are functions of the places alone, between two calls of find(). A
+/// contact whose energy is strength times that of its law, with the slopes as reactions, so keeps energy, momentum and
+/// moment of momentum.
 ///
-///     sum w_c = 1,   sum w_c (x_c - x_i) has no part along the surface,
-///
-/// so that a reaction f n on point i, and -w_c f n on those of the surface, has neither a resultant nor a moment: the
-/// mean of the surface points lies straight below the point. The normal is the mean of the surface points' own, each
-/// pointing away from the family of its point. The surface lies half a spacing outside its points.
+/// find() chooses the surface points: those that no other point of their body covers, on the side of the body that
+/// faces the other point. Each has a share from 0 to 1 that changes smoothly with the places.
 class SmoothedSurface {
 public:
     /// Finds the surface of a body, and which points of another are near. To be called after every refresh.
@@ -44,11 +49,20 @@ private:
     struct Node {
         std::uint32_t record;
         Vector3 normal;
+        double share;
     };
+    void find_nodes(const Model& model, std::uint32_t surface_body);
+    /// Of candidate c for near_[n], at the present positions.
+    PlaneFit fit(const Model& model, std::size_t n) const;
+    void weigh_sides(const Model& model, std::size_t n);
+
     std::vector<Node> nodes_;               ///< points and images of the surface
     std::vector<std::uint32_t> near_;       ///< of the other body
     std::vector<std::size_t> first_;        ///< of near_[n], in candidates_
     std::vector<std::uint32_t> candidates_; ///< in nodes_
+    std::vector<double> shares_;            ///< of each candidate, for the point that it is one of
+    std::vector<Vector3> outwards_;         ///< for each of near_, roughly
+    double spacing_ = 0.0;                  ///< [m]
     double reach_ = 0.0;                    ///< of nodes around a point that touches [m]
 };
 

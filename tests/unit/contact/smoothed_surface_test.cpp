@@ -136,7 +136,7 @@ TEST_CASE("the surface bears a grain above its last points, and not one a spacin
         return !surface.near().empty() && surface.find_support(ground.model, 0, support) && support.distance < 0.5 * dx;
     };
     CHECK(touches(0.5 * side * dx - 0.5 * dx));
-    CHECK_FALSE(touches(0.5 * side * dx + 0.5 * dx));
+    CHECK_FALSE(touches(0.5 * side * dx + 0.51 * dx)); // the side of the body reaches half a spacing
 }
 
 TEST_CASE("nothing leans on a rim that is almost straight with weights beyond all measure")
@@ -160,30 +160,77 @@ TEST_CASE("nothing leans on a rim that is almost straight with weights beyond al
             double weights = 0.0;
             for (const double weight : support.weights)
                 weights += std::abs(weight);
-            largest = std::max(largest, weights);
+            largest = std::max(largest, support.strength * weights);
         }
     }
     CHECK(borne >= 300);
-    CHECK(largest < 3.0);
+    CHECK(largest < 3.0); // 2 at half a spacing beyond the last row of a lattice
 }
 
-TEST_CASE("forces on an uneven surface have no resultant and no moment")
+namespace {
+
+/// On an uneven ground of 18 x 18 points: inside, above the rim and a corner, and half a spacing beyond.
+std::vector<Vector3> places_on_uneven_ground()
+{
+    return {{0.1, 0.2, 0.0}, {-1.3, 2.1, 0.3}, {4.0, 0.4, 0.1}, {8.5, 0.3, 0.1},
+            {9.0, 1.2, 0.0}, {8.6, 8.4, 0.2},  {8.9, 8.8, -0.1}};
+}
+
+} // namespace
+
+TEST_CASE("forces on an uneven surface and on its rim have no resultant and no moment")
 {
     Ground ground(some_frame(), 0.2);
     ContactForces contact = on_surface(0.0);
-    for (const Vector3& place : {Vector3(0.1, 0.2, 0.0), Vector3(-1.3, 2.1, 0.3), Vector3(4.0, 0.4, 0.1)}) {
+    for (const Vector3& place : places_on_uneven_ground()) {
         ground.put(dx * place);
         contact.find_candidates(ground.model, 0.1 * dx);
         const std::vector<Vector3> force = reactions(contact, ground.model);
         Vector3 sum = Vector3::Zero(), moment = Vector3::Zero();
+        double size = 0.0;
         for (std::size_t i = 0; i < force.size(); ++i) {
             sum += force[i];
             moment += (ground.model.points.position[i] - ground.model.points.position.back()).cross(force[i]);
+            size += force[i].norm();
         }
-        const double size = force[ground.grain()].norm();
+        CAPTURE(place.transpose());
         REQUIRE(size > 0.0);
         CHECK(sum.norm() < 1e-14 * size);
         CHECK(moment.norm() < 1e-13 * size * dx);
+    }
+}
+
+TEST_CASE("the force on every point is minus the derivative of the stored energy, also where the surface ends")
+{
+    Ground ground(some_frame(), 0.2);
+    ContactForces contact = on_surface(0.0);
+    for (const Vector3& place : places_on_uneven_ground()) {
+        CAPTURE(place.transpose());
+        ground.put(dx * place);
+        contact.find_candidates(ground.model, 0.1 * dx);
+        const std::vector<Vector3> force = reactions(contact, ground.model);
+        double largest = 0.0;
+        for (const Vector3& f : force)
+            largest = std::max(largest, f.norm());
+        REQUIRE(largest > 0.0);
+        const double shift = 1e-5 * dx; // the third derivative of the energy is below 1e3 largest/dx^2: 1e-7
+        for (std::size_t i = 0; i < force.size(); ++i) {
+            if (force[i].isZero(0.0))
+                continue;
+            for (Eigen::Index c = 0; c < 3; ++c) {
+                const auto energy_at = [&](double way) {
+                    const Vector3 there = ground.model.points.position[i];
+                    ground.model.points.position[i][c] += way;
+                    ground.model.update_records();
+                    reactions(contact, ground.model);
+                    ground.model.points.position[i] = there;
+                    return contact.energy();
+                };
+                const double slope = (energy_at(shift) - energy_at(-shift)) / (2.0 * shift);
+                CHECK(std::abs(force[i][c] + slope) < 1e-6 * largest);
+            }
+        }
+        ground.model.update_records();
     }
 }
 
@@ -292,7 +339,7 @@ TEST_CASE("the bounds of points cover a crowd on the surface, and not by much")
         contact.find_candidates(ground.model, 0.1 * dx);
         const std::vector<ContactBound>& bounds = contact.bounds(ground.model);
 
-        // One column b = (n on the grain, -w_p n on the surface) for every contact.
+        // One column b = of the slopes of its distance, on the grain and on the surface, for every contact.
         SmoothedSurface surface;
         surface.find(ground.model, 0, 1, 0.5 * dx, 0.1 * dx);
         REQUIRE(surface.near().size() == places.size());
@@ -306,9 +353,9 @@ TEST_CASE("the bounds of points cover a crowd on the surface, and not by much")
                 continue;
             const auto column = static_cast<Eigen::Index>(grains.size());
             grains.push_back(surface.near()[s]);
-            contacts.block<3, 1>(3 * grains.back(), column) = support.normal;
+            contacts.block<3, 1>(3 * grains.back(), column) = support.own_slope;
             for (std::size_t m = 0; m < support.records.size(); ++m)
-                contacts.block<3, 1>(3 * support.records[m], column) = -support.weights[m] * support.normal;
+                contacts.block<3, 1>(3 * support.records[m], column) = support.slopes[m];
         }
         const auto count = static_cast<Eigen::Index>(grains.size());
         contacts.conservativeResize(Eigen::NoChange, count);
@@ -322,8 +369,11 @@ TEST_CASE("the bounds of points cover a crowd on the surface, and not by much")
         std::vector<Vector3> force(ground.model.size(), Vector3::Zero());
         contact.add_reactions(ground.model, 1e-5, ContactForces::Approach::real, force);
         Eigen::VectorXd dashpots(count);
-        for (Eigen::Index s = 0; s < count; ++s)
-            dashpots[s] = contact.damping()[grains[static_cast<std::size_t>(s)]].norm() / speed;
+        for (Eigen::Index s = 0; s < count; ++s) {
+            const std::uint32_t grain = grains[static_cast<std::size_t>(s)];
+            const double slope = contacts.block<3, 1>(3 * grain, s).norm(); // of speed, of opening and of reaction
+            dashpots[s] = contact.damping()[grain].norm() / (speed * slope * slope * slope);
+        }
         REQUIRE(dashpots.minCoeff() > 0.0);
 
         // With K = sum k_s b_s b_s^T and blocks D, the largest eigenvalue of D^-1 K, sought as that of
