@@ -16,10 +16,10 @@ constexpr double support_radius = 1.8; ///< of the fit along the surface, in spa
 /// In a lattice points at the surface have others at up to a cosine of 0.53, points below it have one at 0.82 or more.
 constexpr double free_cosine = 0.57, covered_cosine = 0.78;
 constexpr double covered_distance = 1.55, free_distance = 1.85; ///< in spacings
-/// Cosine of the normal of a surface point to that of the fit. The points of the next layer down the side of a block
-/// have 0.40 to its upper face and less, those at its edges and corners have 0.58 and more.
-constexpr double aside_cosine = 0.42, facing_cosine = 0.56;
-constexpr int fits_of_side = 3; ///< with points on all sides first, then with those that face the normal of the last
+/// Cosine between the normals of a surface point and of the surface around: points that look the other way, as those at
+/// the bottom of a thin body, do not count. Those at the side of a block count for a point above its edge, which is
+/// round so; without them the edge would be sharp, but what counts would change with every small motion.
+constexpr double away_cosine = -0.7, facing_cosine = -0.2;
 /// Spread of a fit, in squared spacings, from which the surface bears wholly. It is 0.5 inside a lattice, 0.25 above
 /// the last row, 0.13 above a corner, and 0.04 at half a spacing beyond the last row.
 constexpr double bearing_spread = 0.1;
@@ -118,34 +118,25 @@ void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::
         first_.push_back(candidates_.size());
         shares_.resize(candidates_.size());
         outwards_.emplace_back(Vector3::Zero());
-        weigh_sides(model, near_.size() - 1);
+        weigh_sides(model, near_.size() - 1, slack);
     }
 }
 
-void SmoothedSurface::weigh_sides(const Model& model, std::size_t n)
+void SmoothedSurface::weigh_sides(const Model& model, std::size_t n, double slack)
 {
     const Vector3 x = model.records[near_[n]].x();
+    const double search = reach_ + slack;
     Vector3& outwards = outwards_[n];
     for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
         const Node& node = nodes_[candidates_[c]];
-        // a radius in which each candidate has a weight
-        const double squared = (model.records[node.record].x() - x).squaredNorm() / (reach_ * reach_);
-        outwards += node.share / (1.0 + squared * squared * squared) * node.normal;
+        const double squared = (model.records[node.record].x() - x).squaredNorm() / (search * search);
+        outwards += node.share * bell(squared).value * node.normal;
     }
-    Vector3 normal = outwards.normalized();
-    for (int round = 0; round < fits_of_side; ++round) {
-        // In the first round only those that look the other way are left out.
-        const double from = round == 0 ? -0.5 : aside_cosine, to = round == 0 ? 0.0 : facing_cosine;
-        for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
-            const Node& node = nodes_[candidates_[c]];
-            shares_[c] = node.share * smooth_step(node.normal.dot(normal), from, to).value;
-        }
-        PlaneFit plane = fit(model, n);
-        if (!plane.solve(normal))
-            return;
-        normal = plane.normal();
+    outwards.normalize();
+    for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
+        const Node& node = nodes_[candidates_[c]];
+        shares_[c] = node.share * smooth_step(node.normal.dot(outwards), away_cosine, facing_cosine).value;
     }
-    outwards = normal;
 }
 
 PlaneFit SmoothedSurface::fit(const Model& model, std::size_t n) const

@@ -52,9 +52,10 @@ private:
         double share;
     };
     void find_nodes(const Model& model, std::uint32_t surface_body);
-    /// Of candidate c for near_[n], at the present positions.
+    /// Of the candidates of near_[n], at the present positions; not solved yet.
     PlaneFit fit(const Model& model, std::size_t n) const;
-    void weigh_sides(const Model& model, std::size_t n);
+    /// Sets outwards_[n] and the shares of its candidates.
+    void weigh_sides(const Model& model, std::size_t n, double slack);
 
     std::vector<Node> nodes_;               ///< points and images of the surface
     std::vector<std::uint32_t> near_;       ///< of the other body
