@@ -135,6 +135,8 @@ TEST_CASE(
              Fall{"16 mm on a smoothed surface", Meets::smoothed, "short_range", 1e6, "bond_projection", 0.56},
              Fall{"16 mm on a hard smoothed surface", Meets::smoothed, "penalty", 1e7, "energy_conjugate", 0.56},
              Fall{"0.1 m on a smoothed surface", Meets::smoothed, "short_range", 4e6, "bond_projection", 1.4},
+             Fall{"1 m on a smoothed surface, with overlaps beyond the reach", Meets::smoothed, "hertz", 1e6,
+                  "energy_conjugate", 4.4},
              Fall{"0.1 m on a smoothed surface that sticks", Meets::smoothed, "adhesive", 1e7, "energy_conjugate_mean",
                   1.4},
          }) {
@@ -168,9 +170,10 @@ TEST_CASE("a block, which rings, never leaves with more energy than it brought")
                 const double leaves =
                     (gravity[last] - gravity[before]) / (time[last] - time[before]) / (block_mass * almost_no_gravity);
                 CHECK(leaves > 0.0);
-                // Gravity adds 2e-5 of the energy, and the rest is the error that the balance of energies has.
-                CHECK(0.5 * block_mass * leaves * leaves <= 1.001 * brought);
-                CHECK(run.energy("kinetic") + run.energy("stress_work") <= 1.003 * brought);
+                CHECK(0.5 * block_mass * leaves * leaves <= 1.001 * brought); // gravity adds 2e-5
+                // The motion with the ringing keeps all energy when e = 1, up to the error that a fall may have.
+                CHECK(run.energy("kinetic") + run.energy("stress_work") <= 1.01 * brought);
+                CHECK(run.largest("energy_error") < 0.01 * brought);
             }
 }
 
