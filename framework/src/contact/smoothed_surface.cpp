@@ -20,8 +20,9 @@ constexpr double covered_distance = 1.55, free_distance = 1.85; ///< in spacings
 /// the bottom of a thin body, do not count. Those at the side of a block count for a point above its edge, which is
 /// round so; without them the edge would be sharp, but what counts would change with every small motion.
 constexpr double away_cosine = -0.7, facing_cosine = -0.2;
-/// Spread of a fit, in squared spacings, from which the surface bears wholly. It is 0.5 inside a lattice, 0.25 above
-/// the last row, 0.13 above a corner, and 0.04 at half a spacing beyond the last row.
+/// Spread of a fit, in squared spacings, from which the surface bears wholly. Of a point a spacing above the last
+/// points it is 0.45 inside a lattice, 0.22 above the last row, 0.13 above a corner, and 0.05 at half a spacing beyond
+/// the last row; nearer points have more.
 constexpr double bearing_spread = 0.1;
 constexpr double least_spread = 0.02; ///< in squared spacings, below which it bears nothing
 
