@@ -213,6 +213,9 @@ TEST_CASE("the force on every point is minus the derivative of the stored energy
         for (const Vector3& f : force)
             largest = std::max(largest, f.norm());
         REQUIRE(largest > 0.0);
+        std::vector<double> stored; // as a refresh compares it
+        contact.energy_on_smoothed(ground.model, stored);
+        CHECK(stored[ground.grain()] == doctest::Approx(contact.energy()).epsilon(1e-12).scale(0.0));
         const double shift = 1e-5 * dx; // the third derivative of the energy is below 1e3 largest/dx^2: 1e-7
         for (std::size_t i = 0; i < force.size(); ++i) {
             if (force[i].isZero(0.0))
