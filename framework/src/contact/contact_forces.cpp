@@ -6,6 +6,7 @@
 #include "contact/assignment.hpp"
 #include "contact/contact_slopes.hpp"
 #include "contact/corner_dashpot.hpp"
+#include "periporo/first_exception.hpp"
 
 #include <algorithm>
 #include <array>
@@ -105,9 +106,13 @@ void ContactForces::list_near_surfaces(const Model& model)
         const RigidContactSurface surface(model, assignment);
         const double reach = assignment.law->cutoff() + (surface_margin + surface_skin) * model.spacing;
         const Vector3 shift = assignment.obstacle ? searched_shifts_[*assignment.obstacle] : Vector3(Vector3::Zero());
+        FirstException failure; // of the geometry
 #pragma omp parallel for schedule(dynamic, 256)
         for (std::size_t i = 0; i < model.size(); ++i)
-            near[i] = names(assignment, model.points.body[i]) && surface.is_near(searched_[i] - shift, reach);
+            failure.guard(i, [&] {
+                near[i] = names(assignment, model.points.body[i]) && surface.is_near(searched_[i] - shift, reach);
+            });
+        failure.rethrow();
         for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i)
             if (near[i] != 0)
                 near_surface_[a].push_back(i);

@@ -6,6 +6,7 @@
 #include "contact/contact_forces.hpp"
 #include "contact/contact_slopes.hpp"
 #include "families/cell_list.hpp"
+#include "periporo/first_exception.hpp"
 
 #include <algorithm>
 #include <array>
@@ -208,19 +209,20 @@ void ContactForces::for_each_touching(const Model& model, std::size_t assignment
     const Candidates& candidates = candidates_[assignment];
     const double cutoff = assignments_[assignment].law->cutoff();
     const auto whole_reach = [cutoff](std::uint32_t) { return cutoff; };
+    FirstException failure; // of the law
     if (!within_one_body(assignments_[assignment])) {
 #pragma omp parallel for schedule(dynamic, 64)
         for (std::uint32_t i = 0; i < n; ++i)
-            visit(i, candidates.of(i), whole_reach);
+            failure.guard(i, [&] { visit(i, candidates.of(i), whole_reach); });
+        failure.rethrow();
         return;
     }
 #pragma omp parallel
     {
         thread_local std::vector<std::uint32_t> partners; // only ever grows
-#pragma omp for schedule(dynamic, 64)
-        for (std::uint32_t i = 0; i < n; ++i) {
+        const auto visit_concerned = [&](std::uint32_t i) {
             if (concerned_[i] == 0)
-                continue;
+                return;
             partners.clear();
             const FamilyView family = model.families[i];
             for (std::size_t b = 0; b < family.count; ++b)
@@ -230,8 +232,12 @@ void ContactForces::for_each_touching(const Model& model, std::size_t assignment
                 return std::min(std::abs(grain_reach_[i]), std::abs(grain_reach_[other]));
             });
             visit(i, candidates.of(i), whole_reach); // pieces apart met from outside
-        }
+        };
+#pragma omp for schedule(dynamic, 64)
+        for (std::uint32_t i = 0; i < n; ++i)
+            failure.guard(i, [&] { visit_concerned(i); });
     }
+    failure.rethrow();
 }
 
 void ContactForces::add_pairs(const Model& model, std::size_t assignment, double time_step, std::vector<Vector3>& force)

@@ -4,6 +4,7 @@
 #include "families/families.hpp"
 
 #include "families/cell_list.hpp"
+#include "periporo/first_exception.hpp"
 #include "periporo/pack.hpp"
 
 #include <algorithm>
@@ -62,8 +63,7 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
     const std::size_t blocks = (n + block_size - 1) / block_size;
     Found near(blocks), linked(blocks), apart(blocks);
     std::vector<std::uint32_t> near_count(n), link_count(n), apart_count(n);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t block = 0; block < blocks; ++block)
+    const auto find_near = [&](std::size_t block) {
         for (std::uint32_t i = static_cast<std::uint32_t>(block * block_size);
              i < std::min(n, (block + 1) * block_size); ++i) {
             const std::size_t begin = near[block].size(), begin_links = linked[block].size();
@@ -78,26 +78,34 @@ void Families::find_neighbours(const Points& points, const IsometryTable& isomet
             near_count[i] = static_cast<std::uint32_t>(near[block].size() - begin);
             link_count[i] = static_cast<std::uint32_t>(linked[block].size() - begin_links);
         }
+    };
+    FirstException failure;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t block = 0; block < blocks; ++block)
+        failure.guard(block, [&] { find_near(block); });
+    failure.rethrow();
     links.store(linked, link_count);
 #pragma omp parallel
     {
         ChainSearch chains;
         std::vector<std::uint32_t> family;
 #pragma omp for schedule(dynamic, 1)
-        for (std::size_t block = 0; block < blocks; ++block) {
-            family.clear();
-            const std::uint32_t* next = near[block].data();
-            for (std::uint32_t i = static_cast<std::uint32_t>(block * block_size);
-                 i < std::min(n, (block + 1) * block_size); ++i) {
-                const std::size_t before = family.size(), apart_before = apart[block].size();
-                chains.find(links, positions, rule.horizon, i, {next, near_count[i]}, family, apart[block]);
-                next += near_count[i];
-                count_[i] = static_cast<std::uint32_t>(family.size() - before);
-                apart_count[i] = static_cast<std::uint32_t>(apart[block].size() - apart_before);
-            }
-            near[block].assign(family.begin(), family.end());
-        }
+        for (std::size_t block = 0; block < blocks; ++block)
+            failure.guard(block, [&] {
+                family.clear();
+                const std::uint32_t* next = near[block].data();
+                for (std::uint32_t i = static_cast<std::uint32_t>(block * block_size);
+                     i < std::min(n, (block + 1) * block_size); ++i) {
+                    const std::size_t before = family.size(), apart_before = apart[block].size();
+                    chains.find(links, positions, rule.horizon, i, {next, near_count[i]}, family, apart[block]);
+                    next += near_count[i];
+                    count_[i] = static_cast<std::uint32_t>(family.size() - before);
+                    apart_count[i] = static_cast<std::uint32_t>(apart[block].size() - apart_before);
+                }
+                near[block].assign(family.begin(), family.end());
+            });
     }
+    failure.rethrow();
     check_sizes(points);
     lay_out(near);
     lay_out_apart(apart, apart_count);

@@ -3,6 +3,8 @@
 //
 #include "families/halos.hpp"
 
+#include "periporo/first_exception.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -16,12 +18,13 @@ void Halos::find(const Families& families)
     place_of_.assign(families.packs() * pack_width, 0);
     first_arrival_.assign(n + 1, 0);
     std::vector<std::vector<std::uint32_t>> at_place(blocks); // points and images
+    FirstException failure;
 #pragma omp parallel
     {
         constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-        std::vector<std::uint32_t> place(n + families.images().size(), none);
-#pragma omp for schedule(dynamic, 1)
-        for (std::size_t block = 0; block < blocks; ++block) {
+        std::vector<std::uint32_t> place; // of a record in the block
+        failure.guard_set_up([&] { place.assign(n + families.images().size(), none); });
+        const auto find_places = [&](std::size_t block) {
             std::vector<std::uint32_t>& places = at_place[block];
             const auto first = static_cast<std::uint32_t>(first_point(block));
             const auto end = static_cast<std::uint32_t>(end_point(block));
@@ -43,8 +46,12 @@ void Halos::find(const Families& families)
             }
             for (const std::uint32_t j : places)
                 place[j] = none;
-        }
+        };
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < blocks; ++block)
+            failure.guard(block, [&] { find_places(block); });
     }
+    failure.rethrow();
     first_place_.assign(blocks + 1, 0);
     for (std::size_t block = 0; block < blocks; ++block)
         first_place_[block + 1] = first_place_[block] + at_place[block].size();

@@ -3,6 +3,7 @@
 //
 #include "families/sub_horizons.hpp"
 
+#include "periporo/first_exception.hpp"
 #include "periporo/pack.hpp"
 
 #include <algorithm>
@@ -229,13 +230,13 @@ void SubHorizons::find(const Points& points, const IsometryTable& isometries, co
     changes_.resize(first_bond_[n]);
     first_byte_.resize(n);
     members_.resize((n + block_size - 1) / block_size);
+    FirstException failure;
 #pragma omp parallel
     {
         Membership membership;
         ChangeOrder order;
         std::vector<std::uint8_t> members; // so that those kept have no more room than they need
-#pragma omp for schedule(dynamic, 1)
-        for (std::size_t block = 0; block < members_.size(); ++block) {
+        const auto find_members = [&](std::size_t block) {
             members.clear();
             for (std::size_t i = block * block_size; i < std::min(n, (block + 1) * block_size); ++i) {
                 membership.find(points, isometries, families, i, horizon);
@@ -259,8 +260,12 @@ void SubHorizons::find(const Points& points, const IsometryTable& isometries, co
                 members.resize(first + bytes);
             }
             members_[block].assign(members.begin(), members.end());
-        }
+        };
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t block = 0; block < members_.size(); ++block)
+            failure.guard(block, [&] { find_members(block); });
     }
+    failure.rethrow();
 }
 
 std::size_t SubHorizons::memory() const

@@ -4,6 +4,7 @@
 #include "model/body_fill.hpp"
 
 #include "model/body_samples.hpp"
+#include "periporo/first_exception.hpp"
 
 #include <fmt/format.h>
 
@@ -36,9 +37,11 @@ void jitter(const Geometry& geometry, double largest_shift, std::int64_t seed, s
     for (Vector3& shift : shifts)
         for (double& component : shift)
             component = largest_shift * (static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0);
+    FirstException failure;
 #pragma omp parallel for schedule(static)
     for (std::size_t p = 0; p < points.size(); ++p)
-        points[p] = moved_within(geometry, points[p], shifts[p]);
+        failure.guard(p, [&] { points[p] = moved_within(geometry, points[p], shifts[p]); });
+    failure.rethrow();
 }
 
 /// Moves every point to the centroid of its cell. Returns the largest move [m].
@@ -46,12 +49,15 @@ double move_to_centroids(const Geometry& geometry, const BodySamples& samples, s
 {
     const VoronoiCells cells = samples.cells(points);
     double largest = 0.0;
+    FirstException failure;
 #pragma omp parallel for schedule(static) reduction(max : largest)
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        const Vector3 moved = moved_within(geometry, points[p], cells.centroids[p] - points[p]);
-        largest = std::max(largest, (moved - points[p]).norm());
-        points[p] = moved;
-    }
+    for (std::size_t p = 0; p < points.size(); ++p)
+        failure.guard(p, [&] {
+            const Vector3 moved = moved_within(geometry, points[p], cells.centroids[p] - points[p]);
+            largest = std::max(largest, (moved - points[p]).norm());
+            points[p] = moved;
+        });
+    failure.rethrow();
     return largest;
 }
 

@@ -4,6 +4,7 @@
 #include "model/body_samples.hpp"
 
 #include "model/nearest_points.hpp"
+#include "periporo/first_exception.hpp"
 
 #include <fmt/format.h>
 
@@ -88,26 +89,38 @@ BodySamples::BodySamples(const Geometry& geometry, double spacing)
     counts_ = counts.cast<long>();
 
     std::vector<std::uint8_t> centre_inside(static_cast<std::size_t>(counts_.prod()));
+    FirstException failure;
 #pragma omp parallel for schedule(dynamic)
     for (long z = 0; z < counts_.z(); ++z)
-        for (long y = 0; y < counts_.y(); ++y)
-            for (long x = 0; x < counts_.x(); ++x)
-                centre_inside[index({x, y, z})] = geometry.contains(centre({x, y, z})) ? 1 : 0;
-#pragma omp parallel for schedule(dynamic) ordered
-    for (long z = 0; z < counts_.z(); ++z) {
-        std::vector<Block> layer;
-        for (long y = 0; y < counts_.y(); ++y)
-            for (long x = 0; x < counts_.x(); ++x) {
-                const Cell cell(x, y, z);
-                const std::uint64_t inside = is_at_surface(cell, centre_inside) ? samples_inside(geometry, cell)
-                                             : centre_inside[index(cell)] != 0  ? ~std::uint64_t{0}
-                                                                                : 0;
-                if (inside != 0)
-                    layer.push_back({cell, inside});
-            }
-#pragma omp ordered
+        failure.guard(static_cast<std::size_t>(z), [&] {
+            for (long y = 0; y < counts_.y(); ++y)
+                for (long x = 0; x < counts_.x(); ++x)
+                    centre_inside[index({x, y, z})] = geometry.contains(centre({x, y, z})) ? 1 : 0;
+        });
+    failure.rethrow();
+    std::vector<std::vector<Block>> layers(static_cast<std::size_t>(counts_.z()));
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t z = 0; z < layers.size(); ++z)
+        failure.guard(z, [&] { layers[z] = layer(geometry, static_cast<long>(z), centre_inside); });
+    failure.rethrow();
+    for (const std::vector<Block>& layer : layers)
         blocks_.insert(blocks_.end(), layer.begin(), layer.end());
-    }
+}
+
+std::vector<BodySamples::Block> BodySamples::layer(const Geometry& geometry, long z,
+                                                   const std::vector<std::uint8_t>& centre_inside) const
+{
+    std::vector<Block> blocks;
+    for (long y = 0; y < counts_.y(); ++y)
+        for (long x = 0; x < counts_.x(); ++x) {
+            const Cell cell(x, y, z);
+            const std::uint64_t inside = is_at_surface(cell, centre_inside) ? samples_inside(geometry, cell)
+                                         : centre_inside[index(cell)] != 0  ? ~std::uint64_t{0}
+                                                                            : 0;
+            if (inside != 0)
+                blocks.push_back({cell, inside});
+        }
+    return blocks;
 }
 
 Vector3 BodySamples::position(const Cell& cell, const Vector3& within) const
@@ -149,23 +162,27 @@ VoronoiCells BodySamples::cells(std::span<const Vector3> points) const
         places[s] = width_.cwiseProduct(place_in_block(sample_planes()[s].cast<double>()) - Vector3::Constant(0.5));
     const NearestPoints nearest(points, places, 2.0 * width_.maxCoeff());
     std::vector<Share> shares(points.size());
+    FirstException failure;
 #pragma omp parallel
     {
         std::vector<decltype(nearest)::Candidate> candidates;
         std::vector<Share> found;
 #pragma omp for schedule(dynamic, 256)
-        for (const Block& block : blocks_) {
-            nearest.find_candidates(centre(block.cell), candidates);
-            const auto owners = nearest.owners(centre(block.cell), candidates);
-            found.assign(candidates.size(), {});
-            for (std::size_t s = 0; s < block_samples; ++s)
-                if ((block.inside >> s & 1u) != 0)
-                    found[owners[s]].add(planes * block.cell + sample_planes()[s]);
-            for (std::size_t c = 0; c < candidates.size(); ++c)
-                if (found[c].count > 0)
-                    shares[candidates[c].point].add_shared(found[c]);
-        }
+        for (std::size_t b = 0; b < blocks_.size(); ++b)
+            failure.guard(b, [&] {
+                const Block& block = blocks_[b];
+                nearest.find_candidates(centre(block.cell), candidates);
+                const auto owners = nearest.owners(centre(block.cell), candidates);
+                found.assign(candidates.size(), {});
+                for (std::size_t s = 0; s < block_samples; ++s)
+                    if ((block.inside >> s & 1u) != 0)
+                        found[owners[s]].add(planes * block.cell + sample_planes()[s]);
+                for (std::size_t c = 0; c < candidates.size(); ++c)
+                    if (found[c].count > 0)
+                        shares[candidates[c].point].add_shared(found[c]);
+            });
     }
+    failure.rethrow();
     VoronoiCells cells;
     for (std::size_t p = 0; p < points.size(); ++p) {
         cells.samples.push_back(shares[p].count);

@@ -47,6 +47,8 @@ private:
     std::size_t index(const Cell& cell) const;
     bool is_at_surface(const Cell& cell, const std::vector<std::uint8_t>& centre_inside) const;
     std::uint64_t samples_inside(const Geometry& geometry, const Cell& cell) const;
+    /// Blocks of one height that hold samples of the body.
+    std::vector<Block> layer(const Geometry& geometry, long z, const std::vector<std::uint8_t>& centre_inside) const;
 
     Vector3 lower_; ///< corner of the box around the body [m]
     Vector3 width_; ///< of a block [m]

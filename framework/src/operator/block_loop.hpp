@@ -5,24 +5,28 @@
 #pragma once
 
 #include "model/model.hpp"
+#include "periporo/first_exception.hpp"
 
 #include <chrono>
 
 namespace periporo {
 
 /// Calls visit(block, samples) for every block of points, in parallel, and adds the samples to those of the model.
+/// @throws what visit() throws in the first block in which it does.
 template <class Visit>
 void for_every_block(Model& model, Visit&& visit)
 {
+    FirstException failure;
 #pragma omp parallel
     {
         OperatorSamples samples;
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t block = 0; block < model.halos.blocks(); ++block)
-            visit(block, samples);
+            failure.guard(block, [&] { visit(block, samples); });
 #pragma omp critical(periporo_operator_samples)
         model.operator_samples += samples;
     }
+    failure.rethrow();
 }
 
 /// Takes the time of the parts of an evaluation for one point of sixteen: a clock for every point would be felt.

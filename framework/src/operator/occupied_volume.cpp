@@ -6,6 +6,7 @@
 
 #include "operator/thread_buffers.hpp"
 #include "operator/transpose.hpp"
+#include "periporo/first_exception.hpp"
 
 #include <algorithm>
 #include <array>
@@ -205,20 +206,24 @@ void follow_occupied_volume(Model& model, const Families& before)
 {
     Points& points = model.points;
     const OccupiedVolume occupied(model.spacing, model.horizon);
-#pragma omp parallel for schedule(dynamic, 64)
-    for (std::size_t i = 0; i < model.size(); ++i) {
+    const auto follow = [&](std::size_t i) {
         const double part = std::min(1.0, rate * exchanged(before, model.families, i));
         if (part == 0.0)
-            continue;
+            return;
         const OccupiedVolume::Measure measure = occupied.of_point(model, i);
         const double deviation = std::log(measure.ratio / points.jacobian[i]);
         const double uncertainty = uncertainty_inside + uncertainty_of_support * std::max(0.0, 1.0 - measure.support);
         const double beyond = deviation - std::clamp(deviation, -uncertainty, uncertainty);
         if (beyond == 0.0)
-            continue;
+            return;
         points.jacobian[i] *= std::exp(part * beyond);
         points.volume[i] = points.initial_volume[i] * volume_ratio(points.jacobian[i], model.body_of(i).porosity);
-    }
+    };
+    FirstException failure;
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::size_t i = 0; i < model.size(); ++i)
+        failure.guard(i, [&] { follow(i); });
+    failure.rethrow();
     model.update_records();
 }
 

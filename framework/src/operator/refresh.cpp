@@ -5,6 +5,7 @@
 
 #include "operator/occupied_volume.hpp"
 #include "operator/transpose.hpp"
+#include "periporo/first_exception.hpp"
 #include "time/ordered_sum.hpp"
 
 #include <algorithm>
@@ -83,18 +84,21 @@ void find_first_families(Model& model, const ForceState& force_state, const Fami
         model.find_families();
     model.bonds.states.resize(model.halos.blocks());
     model.bonds.first.resize(model.size());
+    FirstException failure;
 #pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
-        model.lay_out_bonds(block);
-        for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
-            const std::size_t rows = model.rows(i);
-            const double* state = model.point_state.data() + i * model.state_stride;
-            for_held_bonds(model, i, [&](std::uint32_t, double* bond) {
-                for (std::size_t r = 0; r < rows; ++r)
-                    bond[r * pack_width] = state[r];
-            });
-        }
-    }
+    for (std::size_t block = 0; block < model.halos.blocks(); ++block)
+        failure.guard(block, [&] {
+            model.lay_out_bonds(block);
+            for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
+                const std::size_t rows = model.rows(i);
+                const double* state = model.point_state.data() + i * model.state_stride;
+                for_held_bonds(model, i, [&](std::uint32_t, double* bond) {
+                    for (std::size_t r = 0; r < rows; ++r)
+                        bond[r * pack_width] = state[r];
+                });
+            }
+        });
+    failure.rethrow();
     model.update_records();
 }
 
@@ -169,16 +173,16 @@ double mean_begun_with(const Model& model, std::size_t point, std::span<const do
 void mean_point_states(const Model& model, const ForceState& force_state, std::vector<double>& states)
 {
     const std::vector<std::vector<std::size_t>> of_point = point_rows(model);
+    FirstException failure;
 #pragma omp parallel
     {
         std::vector<double> shares;
         AlignedVector<double> sums;
-#pragma omp for schedule(dynamic, 64)
-        for (std::size_t i = 0; i < model.size(); ++i) {
+        const auto find_mean = [&](std::size_t i) {
             double* state = states.data() + i * model.state_stride;
             if (model.free_grain[i] != 0) {
                 std::fill_n(state, 6, 0.0);
-                continue;
+                return;
             }
             const FamilyView family = model.families[i];
             shares.resize(family.packs * pack_width);
@@ -187,8 +191,12 @@ void mean_point_states(const Model& model, const ForceState& force_state, std::v
             add_held_bonds(model, i, shares, sums, state);
             for (const std::size_t r : of_point[model.points.body[i]])
                 state[r] += model.point_state[i * model.state_stride + r] - mean_begun_with(model, i, shares, r);
-        }
+        };
+#pragma omp for schedule(dynamic, 64)
+        for (std::size_t i = 0; i < model.size(); ++i)
+            failure.guard(i, [&] { find_mean(i); });
     }
+    failure.rethrow();
 }
 
 namespace {
@@ -250,18 +258,22 @@ void refresh_families(Model& model, const ForceState& force_state, std::span<con
     mean_point_states(model, force_state, states);
     const Model::Replaced replaced = model.renew_families(closed);
     model.point_state.swap(states);
+    FirstException failure;
 #pragma omp parallel
     {
         BlockBefore before;
-        std::vector<double> seen(model.state_stride);
+        std::vector<double> seen;
+        failure.guard_set_up([&] { seen.resize(model.state_stride); });
 #pragma omp for schedule(dynamic, 1)
-        for (std::size_t block = 0; block < model.halos.blocks(); ++block) {
-            before.keep(model, block);
-            model.lay_out_bonds(block);
-            for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i)
-                hand_over(model, i, replaced.families, replaced.active, before.state(i), seen);
-        }
+        for (std::size_t block = 0; block < model.halos.blocks(); ++block)
+            failure.guard(block, [&] {
+                before.keep(model, block);
+                model.lay_out_bonds(block);
+                for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i)
+                    hand_over(model, i, replaced.families, replaced.active, before.state(i), seen);
+            });
     }
+    failure.rethrow();
     hand_out_point_variables(model);
     model.update_records();
     follow_occupied_volume(model, replaced.families);

@@ -4,6 +4,8 @@
 // Sums over points whose last bit does not depend on the number of threads.
 #pragma once
 
+#include "periporo/first_exception.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -22,13 +24,16 @@ std::array<double, count> ordered_sums(std::size_t n, Add&& add)
     if (kept.size() < runs)
         kept.resize(runs);
     std::array<double, count>* sums = kept.data();
+    FirstException failure;
 #pragma omp parallel for schedule(static)
-    for (std::size_t r = 0; r < runs; ++r) {
-        std::array<double, count> sum{};
-        for (std::size_t i = r * run; i < std::min(n, (r + 1) * run); ++i)
-            add(i, sum);
-        sums[r] = sum;
-    }
+    for (std::size_t r = 0; r < runs; ++r)
+        failure.guard(r, [&] {
+            std::array<double, count> sum{};
+            for (std::size_t i = r * run; i < std::min(n, (r + 1) * run); ++i)
+                add(i, sum);
+            sums[r] = sum;
+        });
+    failure.rethrow();
     std::array<double, count> total{};
     for (std::size_t r = 0; r < runs; ++r)
         for (std::size_t c = 0; c < count; ++c)

@@ -3,6 +3,8 @@
 //
 #include "counted_volume.hpp"
 
+#include "periporo/first_exception.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -56,12 +58,15 @@ public:
         const double radius = 0.5 * size.norm();
         std::vector<Cell> cells(8 * open_.size());
         std::vector<std::int8_t> known(cells.size()); // 1 inside, 0 outside, -1 open
+        FirstException failure;                       // of an operand, which may be anybody's plugin
 #pragma omp parallel for schedule(static)
-        for (std::size_t n = 0; n < cells.size(); ++n) {
-            cells[n] = 2 * open_[n / 8] + Cell(n & 1, n >> 1 & 1, n >> 2 & 1);
-            const std::optional<bool> inside = region_.decided(place(cells[n], Vector3::Constant(0.5)), radius);
-            known[n] = static_cast<std::int8_t>(inside ? int{*inside} : -1);
-        }
+        for (std::size_t n = 0; n < cells.size(); ++n)
+            failure.guard(n, [&] {
+                cells[n] = 2 * open_[n / 8] + Cell(n & 1, n >> 1 & 1, n >> 2 & 1);
+                const std::optional<bool> inside = region_.decided(place(cells[n], Vector3::Constant(0.5)), radius);
+                known[n] = static_cast<std::int8_t>(inside ? int{*inside} : -1);
+            });
+        failure.rethrow();
         open_.clear();
         for (std::size_t n = 0; n < cells.size(); ++n) {
             if (known[n] == 1)
@@ -76,12 +81,15 @@ public:
     {
         std::int64_t hits = 0;
         std::int64_t spread = 0;
+        FirstException failure;
 #pragma omp parallel for schedule(static) reduction(+ : hits, spread)
-        for (std::size_t n = 0; n < open_.size(); ++n) {
-            const std::int64_t found = samples_inside(open_[n]);
-            hits += found;
-            spread += found * (cell_samples - found);
-        }
+        for (std::size_t n = 0; n < open_.size(); ++n)
+            failure.guard(n, [&] {
+                const std::int64_t found = samples_inside(open_[n]);
+                hits += found;
+                spread += found * (cell_samples - found);
+            });
+        failure.rethrow();
         const double sample = cell_size().prod() / cell_samples;
         // The variance of a cell's part p is p (1 - p)/(n - 1).
         const double variance = static_cast<double>(spread) / (cell_samples - 1);
