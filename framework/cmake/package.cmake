@@ -10,8 +10,14 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/periporo)
 set(build_package ${CMAKE_BINARY_DIR}/lib/cmake/periporo)
 
 file(RELATIVE_PATH libraries_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+# The same run path in the build folder: CMake would fill up another one with an empty entry, for which the loader takes
+# libraries from the working folder.
+set(library_places "$ORIGIN/${libraries_from_program}" "$ORIGIN/../lib")
+list(REMOVE_DUPLICATES library_places)
 set_target_properties(periporo PROPERTIES
-  INSTALL_RPATH "$ORIGIN/${libraries_from_program}" INSTALL_RPATH_USE_LINK_PATH ON)
+  INSTALL_RPATH "${library_places}" INSTALL_RPATH_USE_LINK_PATH ON BUILD_WITH_INSTALL_RPATH ON)
+set_target_properties(periporo_sdk PROPERTIES
+  INSTALL_RPATH "" INSTALL_RPATH_USE_LINK_PATH ON BUILD_WITH_INSTALL_RPATH ON)
 set_property(SOURCE src/plugins/search_path.cpp APPEND PROPERTY
   COMPILE_DEFINITIONS PERIPORO_PLUGINS_FROM_PROGRAM="${libraries_from_program}/periporo")
 

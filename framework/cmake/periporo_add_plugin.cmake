@@ -60,7 +60,8 @@ function(periporo_add_plugin)
     CXX_EXTENSIONS OFF
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/periporo
     INSTALL_RPATH "$ORIGIN/.."
-    INSTALL_RPATH_USE_LINK_PATH ON)
+    INSTALL_RPATH_USE_LINK_PATH ON
+    BUILD_WITH_INSTALL_RPATH ON) # another one would get an empty entry, which means the working folder
   if(PLUGIN_KIND STREQUAL material)
     target_compile_options(${target} PRIVATE ${PERIPORO_PACK_OPTIONS})
   endif()

@@ -16,14 +16,25 @@
 namespace periporo {
 namespace {
 
-std::string location(const Place& place)
+constexpr std::size_t longest_word = 300;  ///< that a message repeats whole: a path, a name
+constexpr std::size_t excerpt_width = 500; ///< characters of a line
+constexpr std::size_t most_told = 100;     ///< errors; the others are counted
+
+/// The text with very long words shortened.
+std::string clipped(const std::string& text)
 {
-    if (!place.source)
-        return "case";
-    if (!place.source->override_text.empty())
-        return "--set " + place.source->override_text;
-    const std::string file = place.source->file.string();
-    return place.line == 0 ? file : fmt::format("{}:{}:{}", file, place.line, place.column);
+    std::string result;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+        if (end - begin <= longest_word)
+            result += text.substr(begin, end - begin);
+        else
+            result += text.substr(begin, 60) + "..." + text.substr(end - 20, 20);
+        if (end < text.size())
+            result += text[end];
+        begin = end + 1;
+    }
+    return result;
 }
 
 /// Spaces that put a caret under a column: tabs stay tabs, a character of several bytes counts once.
@@ -49,6 +60,8 @@ std::string source_excerpt(const Place& place)
     if (!place.source || place.line == 0 || place.line > place.source->lines.size())
         return {};
     const std::string& line = place.source->lines[place.line - 1];
+    if (line.size() > excerpt_width) // a caret far off the screen shows nothing
+        return {};
     return fmt::format("{:>6} | {}\n{:>6} | {}^\n", place.line, line, "", padding(line, place.column));
 }
 
@@ -70,19 +83,29 @@ auto order(const Place& place)
 
 } // namespace
 
-void Diagnostics::error(const Place& place, std::string message, std::string hint)
+std::string place_text(const Place& place)
 {
-    errors_.push_back({place, std::move(message), std::move(hint)});
+    if (!place.source)
+        return "case";
+    if (!place.source->override_text.empty())
+        return "--set " + clipped(place.source->override_text);
+    const std::string file = place.source->file.string();
+    return place.line == 0 ? file : fmt::format("{}:{}:{}", file, place.line, place.column);
+}
+
+void Diagnostics::error(const Place& place, const std::string& message, const std::string& hint)
+{
+    errors_.push_back({place, clipped(message), clipped(hint)});
 }
 
 void Diagnostics::warning(const Place& place, const std::string& message)
 {
-    warnings_.push_back(fmt::format("{}: warning: {}", location(place), message));
+    warnings_.push_back(fmt::format("{}: warning: {}", place_text(place), message));
 }
 
 std::string Diagnostics::rendered(const Error& error)
 {
-    return fmt::format("{}: error: {}\n{}{}", location(error.place), error.message, source_excerpt(error.place),
+    return fmt::format("{}: error: {}\n{}{}", place_text(error.place), error.message, source_excerpt(error.place),
                        indented(error.hint));
 }
 
@@ -101,8 +124,11 @@ void Diagnostics::raise() const
         diagnostics.push_back({known ? error.place.source->file : std::filesystem::path(),
                                overridden ? 0 : error.place.line, overridden ? 0 : error.place.column, error.message,
                                error.hint, known ? error.place.source->override_text : std::string()});
-        text += rendered(error);
+        if (diagnostics.size() <= most_told)
+            text += rendered(error);
     }
+    if (errors.size() > most_told)
+        text += fmt::format("and {} errors more\n", errors.size() - most_told);
     throw CaseError(std::move(diagnostics), text);
 }
 

@@ -12,11 +12,14 @@
 
 namespace periporo {
 
+/// "case.toml:12:1", "--set body.soil.material=sand", or "case" when the place is not known.
+std::string place_text(const Place& place);
+
 class Diagnostics {
 public:
     /// @param message one sentence without a full stop.
     /// @param hint    a way out; its lines are shown indented. May be empty.
-    void error(const Place& place, std::string message, std::string hint = {});
+    void error(const Place& place, const std::string& message, const std::string& hint = {});
     /// Something that is accepted and worth a word: "file:line:column: warning: ...".
     void warning(const Place& place, const std::string& message);
 

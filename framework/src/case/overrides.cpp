@@ -4,6 +4,7 @@
 // Follows the path of an override and sets the value there.
 #include "case/overrides.hpp"
 
+#include "case/toml_depth.hpp"
 #include "case/toml_source.hpp"
 
 #include <fmt/format.h>
@@ -52,6 +53,9 @@ public:
         const std::vector<std::string> keys = split_path(text.substr(0, std::min(equals, text.size())));
         if (equals == std::string::npos || std::find(keys.begin(), keys.end(), "") != keys.end())
             return fail("an override is written KEY=VALUE", "for example --set contact.0.friction=0.3");
+        if (keys.size() > most_key_parts)
+            return fail(fmt::format("the key has more than {} parts", most_key_parts),
+                        "for example --set contact.0.friction=0.3");
         if (keys.front() == "include")
             return fail("'include' cannot be overridden", "write a case that includes both files");
         const std::optional<CaseNode> value = read_value(trimmed(text.substr(equals + 1)));

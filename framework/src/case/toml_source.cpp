@@ -4,12 +4,15 @@
 // Reads TOML files with their includes.
 #include "case/toml_source.hpp"
 
+#include "case/toml_depth.hpp"
+
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -18,6 +21,9 @@ namespace periporo {
 namespace {
 
 using SourcePointer = std::shared_ptr<const CaseSource>;
+
+constexpr std::uintmax_t most_bytes = 16 << 20; ///< of a case file; data belong into files of their own
+constexpr std::size_t longest_chain = 32;       ///< of files that include one another
 
 std::vector<std::string> split_lines(const std::string& text)
 {
@@ -86,7 +92,24 @@ void merge(CaseNode& base, CaseNode&& over)
     }
 }
 
-/// Follows includes depth first and remembers the chain it came along.
+/// What a regular file of a sensible size is not, or an empty text.
+std::string objection_to_file(const std::filesystem::path& file)
+{
+    std::error_code error;
+    if (!std::filesystem::exists(file, error))
+        return "no such file";
+    if (std::filesystem::is_directory(file, error))
+        return "it is a folder";
+    if (!std::filesystem::is_regular_file(file, error)) // reading it might never end
+        return "it is no regular file";
+    if (std::filesystem::file_size(file, error) > most_bytes)
+        return fmt::format("it has more than {} MB; tables and points belong into files that the case names",
+                           most_bytes >> 20);
+    return error ? error.message() : std::string();
+}
+
+/// Follows includes depth first and remembers the chain it came along. A file that is included several times is read
+/// once.
 class FileReader {
 public:
     explicit FileReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -95,11 +118,17 @@ public:
     {
         const auto source = std::make_shared<CaseSource>();
         source->file = file;
-        source->order = files_++;
+        source->order = files_.size();
+        files_.push_back(file);
         const std::optional<std::string> text = load(file, source, included_from);
         if (!text)
             return std::nullopt;
         source->lines = split_lines(*text);
+        if (const std::optional<DeepKey> deep = find_deep_key(*text)) {
+            diagnostics_.error({source, deep->line, deep->column},
+                               fmt::format("a key has more than {} parts", most_key_parts));
+            return std::nullopt;
+        }
         std::optional<CaseNode> own;
         try {
             const toml::table table = toml::parse(std::string_view(*text));
@@ -112,21 +141,19 @@ public:
         return with_includes(std::move(*own), file);
     }
 
+    const std::vector<std::filesystem::path>& files_read() const { return files_; }
+
 private:
     std::optional<std::string> load(const std::filesystem::path& file, const SourcePointer& source,
                                     const Place* included_from)
     {
-        std::error_code ignored;
-        std::string reason;
-        if (!std::filesystem::exists(file, ignored))
-            reason = "no such file";
-        else if (std::filesystem::is_directory(file, ignored))
-            reason = "it is a folder";
-        std::ifstream stream(file, std::ios::binary);
-        if (reason.empty() && !stream)
+        std::string reason = objection_to_file(file);
+        if (reason.empty()) {
+            std::ifstream stream(file, std::ios::binary);
+            if (stream)
+                return std::string(std::istreambuf_iterator<char>(stream), {});
             reason = "it cannot be opened";
-        if (reason.empty())
-            return std::string(std::istreambuf_iterator<char>(stream), {});
+        }
         if (included_from != nullptr)
             diagnostics_.error(*included_from, fmt::format("cannot include {}: {}", file.string(), reason),
                                "paths are relative to the file that includes");
@@ -172,7 +199,15 @@ private:
                                include_chain(canonical));
             return std::nullopt;
         }
-        return read(path, &member.place);
+        if (chain_.size() >= longest_chain) {
+            diagnostics_.error(member.place, fmt::format("more than {} files include one another", longest_chain),
+                               "include the last ones of the chain directly");
+            return std::nullopt;
+        }
+        const auto known = read_before_.find(canonical);
+        if (known == read_before_.end())
+            return read_before_.emplace(canonical, read(path, &member.place)).first->second;
+        return known->second;
     }
 
     std::string include_chain(const std::filesystem::path& last) const
@@ -185,22 +220,27 @@ private:
 
     Diagnostics& diagnostics_;
     std::vector<std::filesystem::path> chain_;
-    std::size_t files_ = 0;
+    std::map<std::filesystem::path, std::optional<CaseNode>> read_before_; ///< with its own includes
+    std::vector<std::filesystem::path> files_;
 };
 
 } // namespace
 
-CaseNode read_toml_files(const std::filesystem::path& file, Diagnostics& diagnostics)
+CaseNode read_toml_files(const std::filesystem::path& file, Diagnostics& diagnostics,
+                         std::vector<std::filesystem::path>* files_read)
 {
-    std::optional<CaseNode> root = FileReader(diagnostics).read(file, nullptr);
+    FileReader reader(diagnostics);
+    std::optional<CaseNode> root = reader.read(file, nullptr);
     diagnostics.raise();
+    if (files_read != nullptr)
+        *files_read = reader.files_read();
     return std::move(*root);
 }
 
 std::optional<CaseNode> parse_toml_value(const std::string& text, const SourcePointer& source)
 {
-    if (text.find('\n') != std::string::npos)
-        return std::nullopt; // could smuggle in further keys
+    if (text.find('\n') != std::string::npos || find_deep_key(text))
+        return std::nullopt; // a line break could smuggle in further keys
     try {
         const toml::table table = toml::parse(std::string_view("value = " + text));
         return convert(*table.get("value"), source);

@@ -111,6 +111,27 @@ void check_components(const CheckedTable& stage, Diagnostics& diagnostics)
     }
 }
 
+/// Every increment is a row of path.csv, and all are kept until the end.
+void check_increments(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    constexpr double most_increments = 1e7; // some gigabytes
+    double increments = 0.0;
+    for (const CheckedTable& stage : root.all("stage")) {
+        const auto* steps = value_of<std::int64_t>(stage, "steps");
+        const auto* cycles = value_of<std::int64_t>(stage, "cycles");
+        const auto* two_way = value_of<bool>(stage, "two_way");
+        if (steps == nullptr || cycles == nullptr || two_way == nullptr)
+            continue;
+        const double ways = std::max(1.0, (*two_way ? 4.0 : 2.0) * static_cast<double>(*cycles));
+        increments += ways * static_cast<double>(*steps);
+        if (increments > most_increments)
+            return diagnostics.error(stage.place_of("steps"),
+                                     fmt::format("up to this stage there are {:.3g} increments, more than {:.3g}",
+                                                 increments, most_increments),
+                                     "give fewer 'steps' or 'cycles'");
+    }
+}
+
 /// Suction and saturation as they are after a table that may set them.
 struct Water {
     bool curve = false; ///< does one say what the saturation is?
@@ -146,6 +167,7 @@ void check_path(const CheckedTable& root, Diagnostics& diagnostics)
     for (std::size_t i = 1; i < root.all("material").size(); ++i)
         diagnostics.error(root.all("material")[i].place, "a path is of one material, and this is another",
                           "keep one [material.NAME]");
+    check_increments(root, diagnostics);
     Water water;
     for (const CheckedTable& material : root.all("material"))
         for (const CheckedTable& curve : material.all("retention")) {

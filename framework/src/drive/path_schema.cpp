@@ -167,8 +167,11 @@ TableRules stage_rules()
     TableRules rules{
         {Parameter::text("name", "Name of the stage, for messages").optional(),
          Parameter::text("type", "Kind of stage"),
-         Parameter::integer("steps", "Increments for one way to the target").at_least(1).by_default(100),
-         Parameter::integer("cycles", "0: to the target; n: n times to the target and back").at_least(0).by_default(0),
+         Parameter::integer("steps", "Increments for one way to the target").at_least(1).at_most(1e6).by_default(100),
+         Parameter::integer("cycles", "0: to the target; n: n times to the target and back")
+             .at_least(0)
+             .at_most(1e6)
+             .by_default(0),
          Parameter::boolean("two_way", "A cycle swings to the opposite side of the start too").by_default(false),
          Parameter::integer("halvings", "How often an increment that fails may be halved")
              .at_least(0)

@@ -4,6 +4,7 @@
 // The table of accepted and refused plugins, and the making of their objects.
 #include "plugins/registry.hpp"
 
+#include "periporo/library_file.hpp"
 #include "plugins/handshake.hpp"
 #include "plugins/loader.hpp"
 #include "sdk/nearest_name.hpp"
@@ -34,7 +35,7 @@ std::vector<path> libraries_of(const path& folder, std::error_code& error)
 {
     std::vector<path> files;
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        if (entry->path().extension() == ".so" && !entry->is_directory())
+        if (entry->path().extension() == ".so" && !entry->is_directory(error))
             files.push_back(entry->path());
     std::sort(files.begin(), files.end());
     return files;
@@ -62,6 +63,10 @@ void PluginRegistry::load(const path& file)
     if (std::any_of(plugins_.begin(), plugins_.end(), is_known) ||
         std::any_of(failures_.begin(), failures_.end(), is_known))
         return;
+    if (const std::string objection = library_objection(known); !objection.empty()) {
+        failures_.push_back({known, fmt::format("cannot be loaded: {}: {}", known.filename().string(), objection)});
+        return;
+    }
     const PluginDescriptor* descriptor = nullptr;
     try {
         descriptor = load_descriptor(known);

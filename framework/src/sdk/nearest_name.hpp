@@ -48,7 +48,9 @@ inline std::optional<std::string> nearest_name(std::string_view wanted, const st
     std::optional<std::string> best;
     std::size_t best_cost = tolerated + 1;
     for (const std::string& name : known) {
-        std::size_t cost = edit_cost(wanted, name);
+        const std::size_t longer = std::max(wanted.size(), name.size()) - std::min(wanted.size(), name.size());
+        // Each character too many costs 2, so that a very long name need not be compared letter by letter.
+        std::size_t cost = 2 * longer > tolerated ? 2 * longer : edit_cost(wanted, name);
         const bool part = wanted.size() >= 3 && (name.starts_with(wanted) || name.ends_with(wanted));
         if (part)
             cost = std::min(cost, tolerated);

@@ -4,6 +4,7 @@
 // Loading by Boost.DLL, and messages that say what to do.
 #include "routine_library.hpp"
 
+#include "periporo/library_file.hpp"
 #include "utility_routines.hpp"
 
 #include <fmt/format.h>
@@ -47,6 +48,11 @@ void check_path(const std::string& library)
                                              library));
     if (path.has_parent_path() && !std::filesystem::exists(path))
         throw std::runtime_error(fmt::format("library \"{}\": there is no such file", library));
+    if (const std::string objection = library_objection(path); path.has_parent_path() && !objection.empty())
+        throw std::runtime_error(
+            fmt::format("library \"{}\": {}; it must be a shared library for this machine, as gfortran -shared -fPIC "
+                        "makes it from a source",
+                        library, objection));
 }
 
 std::string upper_case(std::string text)

@@ -4,6 +4,8 @@
 // Cases made of several files.
 #include "unit/case/case_support.hpp"
 
+#include <sys/stat.h>
+
 using namespace periporo;
 using namespace periporo::test;
 
@@ -133,4 +135,48 @@ TEST_CASE("plugin folders of an included file are relative to that file")
                             {"case.toml", "include = [\"lab/base.toml\"]\n"}});
     REQUIRE(read.plugin_paths.size() == 1);
     CHECK(read.plugin_paths[0] == folder / "lab/ours");
+}
+
+TEST_CASE("a file that is included by many ways is read once, so that no number of ways takes long")
+{
+    // each of 40 files includes the next one twice: 2^40 ways to the last
+    const TemporaryFolder folder;
+    write_file(folder / "part40.toml", minimal_case);
+    for (int n = 39; n > 10; --n)
+        write_file(folder / fmt::format("part{}.toml", n),
+                   fmt::format("include = [\"part{0}.toml\", \"part{0}.toml\"]\n", n + 1));
+    const CaseDescription read = read_files(folder, {{"case.toml", "include = [\"part11.toml\"]\n"}});
+    CHECK(read.title == "minimal");
+}
+
+TEST_CASE("a very long chain of includes is an error, not the end of the stack")
+{
+    const TemporaryFolder folder;
+    for (int n = 0; n < 5000; ++n)
+        write_file(folder / fmt::format("part{}.toml", n), fmt::format("include = [\"part{}.toml\"]\n", n + 1));
+    const auto errors = errors_of_files(folder, {{"case.toml", "include = [\"part0.toml\"]\n"}});
+    REQUIRE(errors.size() == 1);
+    CHECK(contains(errors[0].message, "more than 32 files include one another"));
+}
+
+TEST_CASE("pipes and devices are no cases, and reading them does not wait for ever")
+{
+    const TemporaryFolder folder;
+    REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    for (const std::string name : {"pipe", "/dev/zero"}) {
+        CAPTURE(name);
+        const auto errors = errors_of_files(folder, {{"case.toml", "include = [\"" + name + "\"]\n"}});
+        REQUIRE(errors.size() == 1);
+        CHECK(contains(errors[0].message, "it is no regular file"));
+    }
+}
+
+TEST_CASE("a case of many megabytes is refused before it is read")
+{
+    const TemporaryFolder folder;
+    write_file(folder / "huge.toml", "");
+    std::filesystem::resize_file(folder / "huge.toml", std::uintmax_t{1} << 36); // takes no room on the disk
+    const auto errors = errors_of_files(folder, {{"case.toml", "include = [\"huge.toml\"]\n"}});
+    REQUIRE(errors.size() == 1);
+    CHECK(contains(errors[0].message, "it has more than 16 MB"));
 }

@@ -66,3 +66,23 @@ TEST_CASE("an error of an override shows the override instead of a place")
         CHECK(std::string(error.what()).starts_with("--set time.safty=0.5: error: unknown key 'safty' in [time]\n"));
     }
 }
+
+TEST_CASE("a key of ten megabytes is refused at once and with a short message")
+{
+    const TemporaryFolder folder;
+    const std::string key(10 << 20, 'k');
+    const std::string shown = text_of(minimal_case + key + " = 1\n", folder / "case.toml");
+    CHECK(contains(shown, "unknown key 'kkkk"));
+    CHECK(shown.size() < 5000);
+}
+
+TEST_CASE("of thousands of errors the first hundred are told and the others counted")
+{
+    const TemporaryFolder folder;
+    std::string text = "[oddments]\n";
+    for (int n = 0; n < 5000; ++n)
+        text = fmt::format("odd{} = 1\n", n) + text;
+    const std::string shown = text_of(text + minimal_case, folder / "case.toml");
+    CHECK(contains(shown, "errors more\n"));
+    CHECK(shown.size() < 200000);
+}

@@ -79,3 +79,36 @@ TEST_CASE("a value alone is read as TOML, and nothing else is")
     CHECK_FALSE(parse_toml_value("sand", source).has_value());
     CHECK_FALSE(parse_toml_value("1\nother = 2", source).has_value());
 }
+
+TEST_CASE("keys of thousands of parts are an error at their place, however they are written")
+{
+    const auto dotted = [](const std::string& part, int count) {
+        std::string key = part;
+        for (int n = 1; n < count; ++n)
+            key += "." + part;
+        return key;
+    };
+    for (const std::string& text : {"a = 1\n" + dotted("b", 30000) + " = 1\n", "\n[" + dotted("b", 30000) + "]\n",
+                                    "\n" + dotted("\"a.b\"", 30000) + " = 1\n",
+                                    "\nb = { x = \"\"\"it's\"\"\", " + dotted("'c'", 30000) + " = 1 }\n"}) {
+        const TemporaryFolder folder;
+        write_file(folder / "case.toml", text);
+        Diagnostics diagnostics;
+        try {
+            read_toml_files(folder / "case.toml", diagnostics);
+            FAIL("no error");
+        } catch (const CaseError& error) {
+            REQUIRE(error.diagnostics().size() == 1);
+            CHECK(error.diagnostics()[0].line == 2);
+            CHECK(error.diagnostics()[0].message == "a key has more than 32 parts");
+        }
+    }
+}
+
+TEST_CASE("dots in texts, comments and numbers are no parts of keys")
+{
+    const std::string dots(100, '.');
+    const CaseNode root = tree_of("a = \"" + dots + "\" # " + dots + "\nb = [ 0.1, 0.2 ]\nc = \"\"\"\n" + dots +
+                                  "\n\"\"\"\nd = '" + dots + "'\n");
+    CHECK(root.table()->size() == 4);
+}

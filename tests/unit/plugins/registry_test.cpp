@@ -8,6 +8,7 @@
 #include "support/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <string>
 
@@ -114,4 +115,34 @@ TEST_CASE("a good plugin is loaded although its neighbour in the folder is refus
     registry.load_folders({folder.path()});
     CHECK(registry.plugins().size() == 1);
     CHECK(registry.failures().size() == 1); // text.txt is not considered
+}
+
+TEST_CASE("a library that was cut off anywhere is refused, since loading it would end the program")
+{
+    const test::TemporaryFolder folder;
+    const auto size = std::filesystem::file_size(libraries / "speck" / "speck.so");
+    for (const std::uintmax_t length :
+         {std::uintmax_t{0}, std::uintmax_t{40}, std::uintmax_t{100}, size / 4, size / 2, size - 1}) {
+        CAPTURE(length);
+        const std::filesystem::path file = folder / ("cut" + std::to_string(length) + ".so");
+        std::filesystem::copy(libraries / "speck" / "speck.so", file);
+        std::filesystem::resize_file(file, length);
+        PluginRegistry registry;
+        registry.load(file);
+        CHECK(registry.plugins().empty());
+        REQUIRE(registry.failures().size() == 1);
+        const std::string& reason = registry.failures()[0].reason;
+        const bool told = reason.find("cut off") != std::string::npos || reason.find("it is no shared library") != std::string::npos;
+        CHECK_MESSAGE(told, reason);
+    }
+}
+
+TEST_CASE("a pipe that calls itself a library is refused")
+{
+    const test::TemporaryFolder folder;
+    REQUIRE(mkfifo((folder / "pipe.so").c_str(), 0600) == 0);
+    PluginRegistry registry;
+    registry.load_folders({folder.path()});
+    REQUIRE(registry.failures().size() == 1);
+    CHECK(registry.failures()[0].reason == "cannot be loaded: pipe.so: it is no regular file");
 }
