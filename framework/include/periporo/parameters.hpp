@@ -24,6 +24,7 @@ enum class Naming {
     nothing,
     file,     ///< a file; the plugin gets its full path
     geometry, ///< a [geometry.NAME] of the case; see Geometry::set_operands()
+    field,    ///< a field of the snapshots of the case, each once
 };
 
 /// What a parameter may hold; every real is in SI units.
@@ -61,6 +62,8 @@ struct Parameter {
     static Parameter text_list(std::string name, std::size_t size, std::string documentation);
     /// A text that names an existing file, relative to the case file that it is written in; the value is its full path.
     static Parameter file(std::string name, std::string documentation);
+    /// A list of fields of snapshots, for a writer that stores some of them. They are checked before the run.
+    static Parameter fields(std::string name, std::string documentation);
     /// A list of names of [geometry.NAME] tables, for a geometry made of others.
     static Parameter geometries(std::string name, std::string documentation);
 

@@ -9,25 +9,28 @@
 
 namespace periporo {
 
-/// The dimension of a quantity as powers of kilogram, metre and second.
+/// The dimension of a quantity as powers of kilogram, metre and second, and of radian, so that an angle is no
+/// coefficient.
 struct Dimension {
     int mass = 0;
     int length = 0;
     int time = 0;
+    int angle = 0;
 
     friend constexpr bool operator==(const Dimension&, const Dimension&) = default;
 };
 
 namespace dimension {
 inline constexpr Dimension none{};
+inline constexpr Dimension angle{0, 0, 0, 1};
 inline constexpr Dimension length{0, 1, 0};
 inline constexpr Dimension area{0, 2, 0};
 inline constexpr Dimension volume{0, 3, 0};
 inline constexpr Dimension time{0, 0, 1};
 inline constexpr Dimension mass{1, 0, 0};
 inline constexpr Dimension velocity{0, 1, -1};
-inline constexpr Dimension angular_velocity{0, 0, -1}; ///< rad/s
-inline constexpr Dimension rate{0, 0, -1};             ///< 1/s
+inline constexpr Dimension angular_velocity{0, 0, -1, 1}; ///< rad/s
+inline constexpr Dimension rate{0, 0, -1};                ///< 1/s
 inline constexpr Dimension acceleration{0, 1, -2};
 inline constexpr Dimension density{1, -3, 0};
 inline constexpr Dimension force{1, 1, -2};
@@ -45,6 +48,10 @@ std::string si_unit(const Dimension& dimension);
 /// Units a user may write for a dimension, most usual first, for messages: "Pa, kPa, MPa, GPa".
 std::string known_units(const Dimension& dimension);
 
+/// Can a quantity of dimension `given` stand where `wanted` is asked for? They are equal, or an angle is given as a
+/// pure number, in radian. A pure number is never given as an angle.
+bool fits(const Dimension& given, const Dimension& wanted);
+
 /// A number with its dimension, in SI.
 struct Quantity {
     double value = 0.0;
@@ -52,7 +59,7 @@ struct Quantity {
 };
 
 /// Reads "25 MPa", "2.5 mm", "1e3 Pa^3 s", "9.81 m/s2", "30 deg" or a bare number (dimension none).
-/// A unit is a product of prefixed symbols with integer powers, divided by `/`. Angles are pure numbers in radian.
+/// A unit is a product of prefixed symbols with integer powers, divided by `/`. Angles are in radian.
 /// @throws std::invalid_argument with the part that was not understood and the nearest known unit.
 Quantity parse_quantity(std::string_view text);
 

@@ -33,13 +33,10 @@ public:
 
     std::optional<double> real(const CaseNode& node)
     {
-        if (const auto* number = std::get_if<double>(&node.value))
-            return *number;
-        if (const auto* whole = std::get_if<std::int64_t>(&node.value))
-            return static_cast<double>(*whole);
-        if (node.text() == nullptr)
-            return wrong_type<double>(node, "a number or a text with a unit", quantity_hint(parameter_));
-        return quantity(node);
+        const std::optional<double> value = plain_real(node);
+        if (value)
+            warn_of_small_modulus(node, *value);
+        return value;
     }
 
     std::optional<std::int64_t> integer(const CaseNode& node)
@@ -90,6 +87,35 @@ private:
         return std::nullopt;
     }
 
+    std::optional<double> plain_real(const CaseNode& node)
+    {
+        if (const auto* number = std::get_if<double>(&node.value))
+            return *number;
+        if (const auto* whole = std::get_if<std::int64_t>(&node.value))
+            return static_cast<double>(*whole);
+        if (node.text() == nullptr)
+            return wrong_type<double>(node, "a number or a text with a unit", quantity_hint(parameter_));
+        return quantity(node);
+    }
+
+    void warn_of_small_modulus(const CaseNode& node, double value)
+    {
+        constexpr double softest = 1e3; // Pa; gels have some kilopascals
+        if (parameter_.dimension == dimension::pressure && parameter_.name.ends_with("modulus") && value > 0.0 &&
+            value < softest)
+            diagnostics_.warning(node.place, fmt::format("'{}' is {:.4g} Pa, softer than a gel; without quotes a "
+                                                         "number is in Pa, and \"MPa\" are millions of them",
+                                                         parameter_.name, value));
+    }
+
+    void warn_of_unit(const CaseNode& node)
+    {
+        if (parameter_.dimension == dimension::pressure && node.text()->find("mPa") != std::string::npos)
+            diagnostics_.warning(node.place,
+                                 fmt::format("'{}': \"{}\" are thousandths of a pascal; \"MPa\" are millions",
+                                             parameter_.name, *node.text()));
+    }
+
     std::optional<double> quantity(const CaseNode& node)
     {
         Quantity quantity;
@@ -100,8 +126,10 @@ private:
                                quantity_hint(parameter_));
             return std::nullopt;
         }
-        if (quantity.dimension == parameter_.dimension)
+        if (fits(quantity.dimension, parameter_.dimension)) {
+            warn_of_unit(node);
             return quantity.value;
+        }
         const std::string given = quantity.dimension == dimension::none
                                       ? std::string("has no unit")
                                       : fmt::format("is in units of {}", si_unit(quantity.dimension));
@@ -191,7 +219,9 @@ std::string type_text(const Parameter& parameter)
     case ParameterType::real_list:
         return times + number;
     case ParameterType::text_list:
-        return times + (parameter.naming == Naming::geometry ? "[geometry.NAME]" : "text");
+        return times + (parameter.naming == Naming::geometry ? "[geometry.NAME]"
+                        : parameter.naming == Naming::field  ? "name of a field"
+                                                             : "text");
     }
     return {};
 }

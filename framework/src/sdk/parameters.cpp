@@ -125,6 +125,13 @@ Parameter Parameter::file(std::string name, std::string documentation)
     return parameter;
 }
 
+Parameter Parameter::fields(std::string name, std::string documentation)
+{
+    Parameter parameter = text_list(std::move(name), 0, std::move(documentation));
+    parameter.naming = Naming::field;
+    return parameter;
+}
+
 Parameter Parameter::geometries(std::string name, std::string documentation)
 {
     Parameter parameter = text_list(std::move(name), 0, std::move(documentation));

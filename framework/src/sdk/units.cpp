@@ -47,8 +47,8 @@ constexpr std::array symbols{
     Symbol{"min", {60.0, 0, dimension::time}, false},
     Symbol{"h", {3600.0, 0, dimension::time}, false},
     Symbol{"d", {86400.0, 0, dimension::time}, false},
-    Symbol{"rad", {1.0, 0, dimension::none}, false},
-    Symbol{"deg", {std::numbers::pi / 180.0, 0, dimension::none}, false},
+    Symbol{"rad", {1.0, 0, dimension::angle}, false},
+    Symbol{"deg", {std::numbers::pi / 180.0, 0, dimension::angle}, false},
     Symbol{"%", {1.0, -2, dimension::none}, false},
 };
 
@@ -66,7 +66,9 @@ struct UsualUnits {
     std::string_view all;
 };
 constexpr std::array usual_units{
-    UsualUnits{dimension::none, "-", "a pure number, %, deg, rad"},
+    UsualUnits{dimension::none, "-", "a pure number, %"},
+    UsualUnits{dimension::angle, "rad", "deg, rad"},
+    UsualUnits{dimension::angular_velocity, "rad/s", "rad/s, deg/s"},
     UsualUnits{dimension::length, "m", "m, cm, mm, um, km"},
     UsualUnits{dimension::area, "m2", "m2, cm2, mm2"},
     UsualUnits{dimension::volume, "m3", "m3, cm3, mm3"},
@@ -181,6 +183,7 @@ private:
         product.dimension.mass += unit.dimension.mass * power;
         product.dimension.length += unit.dimension.length * power;
         product.dimension.time += unit.dimension.time * power;
+        product.dimension.angle += unit.dimension.angle * power;
     }
 
     Unit read_symbol()
@@ -261,7 +264,15 @@ std::string si_unit(const Dimension& dimension)
     append("kg", dimension.mass);
     append("m", dimension.length);
     append("s", dimension.time);
+    append("rad", dimension.angle);
     return text;
+}
+
+bool fits(const Dimension& given, const Dimension& wanted)
+{
+    Dimension as_number = wanted;
+    as_number.angle = 0;
+    return given == wanted || given == as_number;
 }
 
 std::string known_units(const Dimension& dimension)

@@ -17,7 +17,7 @@ std::vector<Parameter> frame_parameters(const char* origin)
         Parameter::real_list("rotation_axis", dimension::none, 3, "Axis through the origin to rotate about")
             .by_default(std::vector<double>{0.0, 0.0, 1.0}));
     records.push_back(
-        Parameter::real("rotation_angle", dimension::none, "Right-handed angle about the axis, in radian or \"deg\"")
+        Parameter::real("rotation_angle", dimension::angle, "Right-handed angle about the axis, in radian or \"deg\"")
             .by_default(0.0));
     return records;
 }

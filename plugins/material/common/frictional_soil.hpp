@@ -32,20 +32,20 @@ struct FrictionalSoil {
 
     static std::vector<Parameter> parameters()
     {
-        return {
-            Parameter::real("bulk_modulus", dimension::pressure, "Elastic bulk modulus K").above(0.0),
-            Parameter::real("shear_modulus", dimension::pressure, "Elastic shear modulus G").above(0.0),
-            Parameter::real("friction_angle", dimension::none, "Angle of internal friction phi")
-                .at_least(0.0)
-                .below(0.5 * std::numbers::pi),
-            Parameter::real("dilatancy_angle", dimension::none, "Angle of dilatancy psi, at most the angle of friction")
-                .at_least(0.0)
-                .below(0.5 * std::numbers::pi),
-            Parameter::real("cohesion", dimension::pressure, "Cohesion c").at_least(0.0),
-            Parameter::real("tensile_strength", dimension::pressure,
-                            "Largest mean stress in tension p_t, at most c cot(phi)")
-                .at_least(0.0)
-                .by_default(0.0)};
+        return {Parameter::real("bulk_modulus", dimension::pressure, "Elastic bulk modulus K").above(0.0),
+                Parameter::real("shear_modulus", dimension::pressure, "Elastic shear modulus G").above(0.0),
+                Parameter::real("friction_angle", dimension::angle, "Angle of internal friction phi")
+                    .at_least(0.0)
+                    .below(0.5 * std::numbers::pi),
+                Parameter::real("dilatancy_angle", dimension::angle,
+                                "Angle of dilatancy psi, at most the angle of friction")
+                    .at_least(0.0)
+                    .below(0.5 * std::numbers::pi),
+                Parameter::real("cohesion", dimension::pressure, "Cohesion c").at_least(0.0),
+                Parameter::real("tensile_strength", dimension::pressure,
+                                "Largest mean stress in tension p_t, at most c cot(phi)")
+                    .at_least(0.0)
+                    .by_default(0.0)};
     }
 
     static std::vector<StateVariable> state_variables()

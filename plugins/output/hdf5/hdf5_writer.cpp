@@ -34,8 +34,7 @@ public:
                               .at_least(0)
                               .at_most(9)
                               .by_default(1));
-        records.push_back(
-            Parameter::text_list("fields", 0, "Names of the fields to store; all when left out").optional());
+        records.push_back(Parameter::fields("fields", "Names of the fields to store; all when left out").optional());
         return records;
     }
 

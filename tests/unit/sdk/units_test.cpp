@@ -89,12 +89,23 @@ TEST_CASE("one unit may be spelled in several ways")
     }
 }
 
-TEST_CASE("angles and per cent are pure numbers")
+TEST_CASE("angles are in radian and no pure numbers, per cent are")
 {
     CHECK(parse_quantity("180 deg").value == doctest::Approx(std::numbers::pi).epsilon(1e-15));
     CHECK(parse_quantity("1 rad").value == 1.0);
+    CHECK(parse_quantity("30 deg").dimension == dimension::angle);
+    CHECK(parse_quantity("30 deg/s").dimension == dimension::angular_velocity);
     CHECK(parse_quantity("1.5 %").value == 0.015);
-    CHECK(parse_quantity("30 deg").dimension == dimension::none);
+    CHECK(parse_quantity("1.5 %").dimension == dimension::none);
+}
+
+TEST_CASE("a pure number may be an angle, but an angle is never a pure number")
+{
+    CHECK(fits(dimension::none, dimension::angle));
+    CHECK(fits(dimension::rate, dimension::angular_velocity));
+    CHECK_FALSE(fits(dimension::angle, dimension::none));
+    CHECK_FALSE(fits(dimension::angular_velocity, dimension::rate));
+    CHECK_FALSE(fits(dimension::length, dimension::angle));
 }
 
 TEST_CASE("units of time that are no powers of ten")
