@@ -6,6 +6,9 @@
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
+
+#include <chrono>
 
 using namespace periporo::test;
 
@@ -48,6 +51,45 @@ TEST_CASE("what the command line does not know is wrong input")
         CHECK_FALSE(result.error.empty());
         CHECK(folder.entries() == std::set<std::string>{"case.toml"});
     }
+}
+
+TEST_CASE("a number of threads that no machine has is wrong input, in the option and in the environment")
+{
+    const CaseFolder folder;
+    for (const std::string command : {"run", "explain"})
+        for (const std::string threads : {"0", "-1", "100000", "1e3", "9999999999999"}) {
+            CAPTURE(threads);
+            const ProgramResult result = folder.run(command + " case.toml --threads " + threads);
+            CHECK(result.status == 2);
+            CHECK(contains(result.error, "no number of threads; give 1 to "));
+            CHECK(result.error.size() < 200);
+        }
+    folder.write("many.sh", "OMP_NUM_THREADS=100000 '" PERIPORO_PROGRAM "' run case.toml\n");
+    const ProgramResult result = folder.run("--version > /dev/null; sh many.sh");
+    CHECK(result.status == 2);
+    CHECK(contains(result.error, "OMP_NUM_THREADS asks for 100000 threads"));
+    CHECK(folder.entries() == std::set<std::string>{"case.toml", "many.sh"});
+}
+
+TEST_CASE("neither the program nor its plugins take libraries from the working folder")
+{
+    const CaseFolder folder;
+    // each would end the program or its plugin, if it were tried
+    for (const char* library : {"libfmt.so.9", "libgomp.so.1", "libstdc++.so.6", "libgmp.so.10", "libmpfr.so.6",
+                                "libhdf5_serial.so.103", "libperiporo_sdk.so"})
+        folder.write(library, "no library");
+    CHECK(folder.run("--version").status == 0);
+    const ProgramResult result = folder.run("inspect surface_mesh"); // CGAL's plugin needs gmp and mpfr
+    CHECK_MESSAGE(result.status == 0, result.error);
+}
+
+TEST_CASE("a pipe in place of a case is wrong input")
+{
+    const ProgramFolder folder;
+    REQUIRE(mkfifo((folder.path() / "pipe.toml").c_str(), 0600) == 0);
+    const ProgramResult result = folder.run("check pipe.toml");
+    CHECK(result.status == 2);
+    CHECK(contains(result.error, "it is no regular file"));
 }
 
 TEST_CASE("a case that is not there is wrong input")
@@ -96,8 +138,27 @@ TEST_CASE("explain names bodies and stages and writes nothing")
     CHECK(result.status == 0);
     CHECK(contains(result.out, "block"));
     CHECK(contains(result.out, "64 points")); // 100 mm/25 mm along each edge
+    CHECK(contains(result.out, "memory: "));
     CHECK(contains(result.out, "fall"));
     CHECK(folder.entries() == std::set<std::string>{"case.toml"});
+}
+
+TEST_CASE("explain tells size, memory and a range of time of any case in seconds, also of one that does not fit")
+{
+    const CaseFolder folder;
+    for (const std::string spacing : {"0.5 mm", "1 um"}) {
+        CAPTURE(spacing);
+        const auto began = std::chrono::steady_clock::now();
+        const ProgramResult result =
+            folder.run("explain case.toml --threads 2 --set 'discretization.spacing=" + spacing + "'");
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+        CHECK(result.status == 0);
+        CHECK(contains(result.out, spacing == "1 um" ? "about 1e+15 points" : "about 8e+06 points"));
+        CHECK(contains(result.out, "kept, up to"));
+        CHECK((contains(result.out, "does not fit") || spacing != "1 um"));
+        CHECK(contains(result.out, " for the dynamic stages on 2 threads, as measured at a spacing of "));
+        CHECK(took.count() < 20.0); // 5 s where the machine has nothing else to do
+    }
 }
 
 TEST_CASE("run writes into results/<name of the case> when nothing else is said")

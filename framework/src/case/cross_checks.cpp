@@ -76,11 +76,36 @@ void check_initial_stresses(const CheckedTable& root, Diagnostics& diagnostics)
                                   "give 'gravity', or type = \"zero\"");
 }
 
+double duration_of(const CheckedTable& root)
+{
+    double duration = 0.0;
+    for (const CheckedTable& stage : root.all("stage"))
+        if (const auto* seconds = value_of<double>(stage, "duration"))
+            duration += *seconds;
+    return duration;
+}
+
 void check_outputs(const CheckedTable& root, Diagnostics& diagnostics)
 {
-    for (const CheckedTable& output : root.all("output"))
+    constexpr double most_snapshots = 1e6;
+    const double duration = duration_of(root);
+    std::set<std::string> writers;
+    for (const CheckedTable& output : root.all("output")) {
         if (!output.places.contains("every") && !output.places.contains("times"))
             diagnostics.error(output.place, "an [[output]] needs 'every' or 'times'", "every = \"20 ms\"");
+        const auto* every = value_of<double>(output, "every");
+        if (every != nullptr && duration / *every > most_snapshots)
+            diagnostics.error(output.place_of("every"),
+                              fmt::format("{:.3g} snapshots in {:.4g} s, more than {:.0f}", duration / *every, duration,
+                                          most_snapshots),
+                              "make 'every' longer");
+        const auto* writer = value_of<std::string>(output, "writer");
+        if (writer != nullptr && !writers.insert(*writer).second)
+            diagnostics.error(
+                output.place_of("writer"),
+                fmt::format("an [[output]] of writer '{}' came before, and both write the same files", *writer),
+                "keep one of them; 'times' adds single snapshots to those of 'every'");
+    }
 }
 
 void check_horizon(const CheckedTable& root, Diagnostics& diagnostics)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -173,8 +174,17 @@ struct ComparisonDescription {
     double height = 0.0; ///< h0 [m]
 };
 
+/// A file that a run reads, and what it is to the case: "case", "include", "plugin material sand",
+/// "body.soil.water.file".
+struct InputFile {
+    std::string role;
+    std::filesystem::path file;
+};
+
 struct CaseDescription {
     std::filesystem::path file;
+    std::vector<InputFile> inputs;             ///< every file that the case consists of or names
+    std::map<std::string, std::string> places; ///< "case.toml:12:1" of "body.soil", "stage.0", "gravity"; for messages
     std::string title;
     Vector3 gravity{0.0, 0.0, -9.81};
     DiscretizationDescription discretization;

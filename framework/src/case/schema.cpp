@@ -332,7 +332,8 @@ TableRules output_rules()
 
 TableRules comparison_rules()
 {
-    return {{Parameter::text("law", "Published law that the outcome is held against"),
+    return {{Parameter::text("law", "Published law that the outcome is held against")
+                 .one_of({"axisymmetric_column", "planar_column"}),
              Parameter::real("radius", dimension::length, "Initial radius r0, or half-width d0").above(0.0),
              Parameter::real("height", dimension::length, "Initial height h0").above(0.0)}};
 }

@@ -3,6 +3,7 @@
 //
 // `periporo check CASE`: every error of a case at once.
 #include "cli/command.hpp"
+#include "scheduler/run.hpp"
 
 #include <fmt/core.h>
 
@@ -12,7 +13,8 @@ namespace periporo::cli {
 
 void add_check_command(CLI::App& program, Action& action)
 {
-    CLI::App* command = program.add_subcommand("check", "Report every error of a case; run nothing");
+    CLI::App* command =
+        program.add_subcommand("check", "Build what a run would build and report what is wrong; run and write nothing");
     const auto arguments = std::make_shared<CaseArguments>();
     add_case_arguments(*command, *arguments);
     command->footer("Example:\n  periporo check my_case.toml --set discretization.spacing=\"5 mm\"\n\n"
@@ -20,7 +22,9 @@ void add_check_command(CLI::App& program, Action& action)
     command->callback([arguments, &action] {
         action = [arguments] {
             PluginRegistry registry;
-            read_case_loudly(*arguments, registry);
+            const CaseDescription description = read_case_loudly(*arguments, registry);
+            for (const std::string& warning : check_case(description, registry))
+                fmt::print(stderr, "{}", warning);
             fmt::print("{}: no errors\n", arguments->file.string());
             return ExitStatus::done;
         };

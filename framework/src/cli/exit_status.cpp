@@ -40,7 +40,8 @@ ExitStatus report_faults(const std::function<ExitStatus()>& action)
     } catch (const ForeignCheckpoint& error) {
         return complain(ExitStatus::wrong_input, error.what());
     } catch (const std::bad_alloc&) {
-        return complain(ExitStatus::failed, "out of memory; a larger spacing needs less");
+        return complain(ExitStatus::failed, "out of memory; a larger discretization.spacing or a smaller "
+                                            "discretization.horizon needs less");
     } catch (const std::exception& error) {
         return complain(ExitStatus::failed, error.what());
     }

@@ -32,7 +32,7 @@ fs::path default_result_folder(const fs::path& case_file)
     return fs::path("results") / case_file.stem();
 }
 
-void prepare_result_folder(const fs::path& folder, ExistingResults existing)
+void check_result_folder(const fs::path& folder, ExistingResults existing)
 {
     if (fs::exists(folder) && !fs::is_directory(folder))
         throw UsageError(fmt::format("{} is a file, not a folder for results; choose another --out", folder.string()));
@@ -49,6 +49,13 @@ void prepare_result_folder(const fs::path& folder, ExistingResults existing)
         throw UsageError(fmt::format("{} does not look like results of periporo ({} are not there) and is not "
                                      "deleted; choose another --out",
                                      folder.string(), fmt::join(result_marks, " and ")));
+}
+
+void prepare_result_folder(const fs::path& folder, ExistingResults existing)
+{
+    check_result_folder(folder, existing);
+    if (existing != ExistingResults::overwrite || !fs::exists(folder))
+        return;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         fs::remove_all(entry.path());
 }

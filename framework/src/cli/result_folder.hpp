@@ -17,8 +17,11 @@ enum class ExistingResults {
 /// Where results go when nothing else is said: `results/<name of the case file>` under the current folder.
 std::filesystem::path default_result_folder(const std::filesystem::path& case_file);
 
-/// Makes sure that results may be written to `folder`. Makes nothing; deletes only with `overwrite`, and only a folder
-/// that holds results of this program.
+/// Makes sure that results may be written to `folder`. Makes and deletes nothing.
+/// @throws UsageError with a way out.
+void check_result_folder(const std::filesystem::path& folder, ExistingResults existing);
+
+/// Checks the folder again and, with `overwrite`, empties it, but only one that holds results of this program.
 /// @throws UsageError with a way out.
 void prepare_result_folder(const std::filesystem::path& folder, ExistingResults existing);
 

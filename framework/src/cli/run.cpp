@@ -5,6 +5,7 @@
 #include "scheduler/run.hpp"
 #include "cli/command.hpp"
 #include "cli/result_folder.hpp"
+#include "cli/threads.hpp"
 
 #include <memory>
 
@@ -27,11 +28,15 @@ ExistingResults existing_results(const RunArguments& arguments)
 ExitStatus run(RunArguments& arguments)
 {
     // The whole case is checked before anything is written or deleted. Its warnings are the first lines of the log.
+    use_threads(arguments.options.threads);
     PluginRegistry registry;
     const CaseDescription description = read_case(arguments.the_case.file, arguments.the_case.options, registry);
     if (arguments.options.directory.empty())
         arguments.options.directory = default_result_folder(arguments.the_case.file);
-    prepare_result_folder(arguments.options.directory, existing_results(arguments));
+    check_result_folder(arguments.options.directory, existing_results(arguments));
+    arguments.options.take_folder = [&] {
+        prepare_result_folder(arguments.options.directory, existing_results(arguments));
+    };
     const RunOutcome outcome = run_case(description, registry, arguments.options);
     return outcome == RunOutcome::complete ? ExitStatus::done : ExitStatus::interrupted;
 }
@@ -46,9 +51,7 @@ void add_run_command(CLI::App& program, Action& action)
     command
         ->add_option("--out", arguments->options.directory, "Folder for the results (default: results/<name of CASE>)")
         ->type_name("DIR");
-    command->add_option("--threads", arguments->options.threads, "Number of threads (default: all processors)")
-        ->check(CLI::PositiveNumber)
-        ->type_name("N");
+    add_threads(*command, arguments->options.threads);
     CLI::Option* resume =
         command->add_flag("--resume", arguments->options.resume, "Go on with the interrupted run in the folder");
     command->add_flag("--overwrite", arguments->overwrite, "Delete the earlier results in the folder")

@@ -17,7 +17,7 @@ namespace periporo {
 namespace {
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-constexpr const char* format = "periporo checkpoint 7";
+constexpr const char* format = "periporo checkpoint 8";
 
 std::span<const double> flat(const std::vector<Vector3>& vectors)
 {
@@ -163,6 +163,7 @@ void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& 
         integers.push_back(static_cast<std::int64_t>(next));
     archive.put("integers", std::span<const std::int64_t>(integers));
     archive.put("stage_reports", at.stage_reports);
+    archive.put("inputs", at.inputs);
     const LedgerPowers& powers = dynamics.powers;
     archive.put("ledger_powers", std::span<const double>(std::vector<double>{
                                      powers.boundary.at_end, powers.boundary.growth, powers.friction.at_end,

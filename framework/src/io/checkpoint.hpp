@@ -34,6 +34,7 @@ struct RunPosition {
     double error_before = 0.0; ///< of the energy ledger when the last quasi-static stage ended [J]
     RestCriterion::State rest; ///< of the stage
     std::string stage_reports; ///< JSON of the stages that are done
+    std::string inputs;        ///< InputHashes::text() of the files that the run has read
 };
 
 /// A checkpoint that this case cannot go on from: the user's input is wrong.

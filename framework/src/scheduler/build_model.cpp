@@ -3,6 +3,7 @@
 //
 #include "scheduler/build_model.hpp"
 
+#include "case/refusal.hpp"
 #include "contact/assignment.hpp"
 #include "model/body_fill.hpp"
 #include "operator/bond_update.hpp"
@@ -61,8 +62,11 @@ PointCloud fill_with_points(BuiltModel& built, const CaseDescription& descriptio
         volume = geometry->volume();
         for (const std::string& remark : geometry->remarks())
             built.remarks.push_back(fmt::format("body '{}': {}", body.name, remark));
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
-        throw std::runtime_error(fmt::format("body '{}': {}", body.name, error.what()));
+        throw refusal(description, "body." + body.name + ".geometry",
+                      fmt::format("body '{}': {}", body.name, error.what()));
     }
     const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
     const double difference = filled / volume - 1.0;
@@ -101,10 +105,10 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         points.id[i] = static_cast<std::int64_t>(p);
     }
     if (cut == cloud.positions.size())
-        throw std::runtime_error(
-            fmt::format("body '{}': no point lies on the kept side of the symmetry planes and periodic pairs (the side "
-                        "of larger coordinates)",
-                        body.name));
+        throw refusal(description, "body." + body.name + ".geometry",
+                      fmt::format("body '{}': no point lies on the kept side of the symmetry planes and periodic pairs "
+                                  "(the side of larger coordinates)",
+                                  body.name));
     if (cut > 0)
         built.remarks.push_back(fmt::format("body '{}': {} of {} points lie behind symmetry planes and are represented "
                                             "by images",
@@ -126,8 +130,11 @@ void add_obstacles(BuiltModel& built, const CaseDescription& description, Geomet
             for (const std::string& remark : geometry->remarks())
                 built.remarks.push_back(fmt::format("obstacle '{}': {}", obstacle.name, remark));
             built.model.obstacles.push_back({obstacle.name, geometry});
+        } catch (const std::bad_alloc&) {
+            throw;
         } catch (const std::exception& error) {
-            throw std::runtime_error(fmt::format("obstacle '{}': {}", obstacle.name, error.what()));
+            throw refusal(description, "obstacle." + obstacle.name + ".geometry",
+                          fmt::format("obstacle '{}': {}", obstacle.name, error.what()));
         }
     }
 }
@@ -141,8 +148,10 @@ std::optional<std::uint32_t> number_of(const std::vector<Named>& things, const s
     return std::nullopt;
 }
 
-ContactAssignment assignment_of(const Model& model, const ContactDescription& contact, const PluginRegistry& registry)
+ContactAssignment assignment_of(const Model& model, const CaseDescription& description, std::size_t index,
+                                const PluginRegistry& registry)
 {
+    const ContactDescription& contact = description.contacts[index];
     const std::shared_ptr<Contact> law = registry.make_contact(contact.law.name, contact.law.parameters);
     ContactAssignment assignment{law, {}, {}, {}};
     for (const std::string& name : contact.between) {
@@ -154,7 +163,9 @@ ContactAssignment assignment_of(const Model& model, const ContactDescription& co
     if (!contact.surface.empty())
         assignment.surface_body = number_of(model.bodies, contact.surface);
     if (!at_rigid_surface(assignment) && assignment.bodies.size() == 1)
-        assignment.bodies.push_back(assignment.bodies.front());
+        throw refusal(description, fmt::format("contact.{}.between", index),
+                      fmt::format("law '{}' has no surface of its own, and 'between' names one body", contact.law.name),
+                      "name a second body or an obstacle, or the body twice for its free grains");
     fit_contact(*law, model.spacing, model.horizon, assignment.obstacle || assignment.surface_body);
     return assignment;
 }
@@ -237,8 +248,8 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
         built.held_regions.push_back(points_of_region(model, region, geometries));
         built.remarks.push_back(describe_region(region, built.held_regions.back().size()));
     }
-    for (const ContactDescription& contact : description.contacts)
-        built.contacts.push_back(assignment_of(model, contact, registry));
+    for (std::size_t c = 0; c < description.contacts.size(); ++c)
+        built.contacts.push_back(assignment_of(model, description, c, registry));
     for (const ContactAssignment& contact : built.contacts) {
         if (contact.surface_body)
             model.bodies[*contact.surface_body].ground = true;

@@ -4,17 +4,16 @@
 // Where results come from.
 #pragma once
 
-#include "case/description.hpp"
-#include "plugins/registry.hpp"
+#include "scheduler/input_hashes.hpp"
 
 #include <map>
 #include <string>
 
 namespace periporo {
 
-/// Version, compiler, standard, threads (0 for what OpenMP offers) and pack width of this program; every plugin that
-/// the case names, with its file and a CRC-32 of it.
-std::map<std::string, std::string> provenance(const CaseDescription& description, const PluginRegistry& registry,
-                                              int threads);
+/// Version, compiler, standard, threads (0 for what OpenMP offers) and pack width of this program; every file that the
+/// run has read, as "path sha256 hash": "file_case", "file_include_1", "file_body.soil.water.file",
+/// "plugin_material_sand", "library_libmine.so".
+std::map<std::string, std::string> provenance(const InputHashes& inputs, int threads);
 
 } // namespace periporo

@@ -8,6 +8,7 @@
 #include "plugins/registry.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace periporo {
@@ -17,6 +18,8 @@ struct RunOptions {
     int threads = 0;                 ///< 0 takes what OpenMP offers
     bool resume = false;             ///< go on from the checkpoint in `directory`
     bool quiet = false;              ///< no progress on the terminal; the log file is written all the same
+    /// Called when nothing is wrong with the case and its model is built, before anything is written: frees the folder.
+    std::function<void()> take_folder;
 };
 
 enum class RunOutcome {
@@ -26,8 +29,13 @@ enum class RunOutcome {
 
 /// Runs the case. Writes log, results, checkpoint and summary into the directory.
 /// @throws std::exception with stage, step, time, point and position when the run goes wrong (exit status 1).
-/// @throws PluginError or CaseError when the fault is the user's (exit status 2).
+/// @throws PluginError or CaseError when the fault is the user's (exit status 2); nothing is written then.
 RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options);
+
+/// Builds all that a run of the case would build, short of its first step, and writes nothing.
+/// @return what is suspicious, a text each
+/// @throws CaseError, PluginError as a run of the case would.
+std::vector<std::string> check_case(const CaseDescription& description, const PluginRegistry& registry);
 
 /// The case in plain words: bodies, points, families, stages, stable step, memory and the work ahead.
 std::string explain_case(const CaseDescription& description, const PluginRegistry& registry);

@@ -3,12 +3,17 @@
 //
 #include "scheduler/simulation.hpp"
 
+#include "case/refusal.hpp"
+#include "io/archive.hpp"
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
 #include "scheduler/guards.hpp"
 #include "scheduler/held_points.hpp"
+#include "scheduler/model_checks.hpp"
+#include "scheduler/output_checks.hpp"
 #include "scheduler/provenance.hpp"
 #include "scheduler/rest.hpp"
+#include "scheduler/size_estimate.hpp"
 #include "scheduler/summary.hpp"
 #include "scheduler/vertical_stress.hpp"
 #include "time/next_step.hpp"
@@ -54,29 +59,54 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
       outputs_(description, registry), progress_(options.quiet), started_(std::chrono::steady_clock::now()),
       last_checkpoint_(started_)
 {
-    BuiltModel built = build_model(description, registry, [this](const std::string& body, double fraction) {
-        progress_.update([&] { return fmt::format("filling body '{}': {:.0f} %", body, 100.0 * fraction); });
+    check_size(description, registry);
+    BuiltModel built;
+    refuse_failures(description, "", [&] {
+        built = build_model(description, registry, [this](const std::string& body, double fraction) {
+            progress_.update([&] { return fmt::format("filling body '{}': {:.0f} %", body, 100.0 * fraction); });
+        });
     });
     progress_.clear();
+    inputs_ = InputHashes::of(description, registry); // after all plugins have loaded what they need
+    at_.inputs = inputs_.text();
+    set_obstacles(built.model, description, description.stages.front());
+    for (const std::string& warning : check_model(built, description, registry))
+        log_->warn(warning);
+    for (std::size_t s = 0; s < description.stages.size(); ++s)
+        refuse_failures(description, fmt::format("stage.{}", s),
+                        [&] { IsometryTable().set_generators(image_generators(description, description.stages[s])); });
     model_ = std::move(built.model);
     contact_ = ContactForces(std::move(built.contacts));
     water_ = std::move(built.water);
     held_regions_ = std::move(built.held_regions);
-    for (const std::string& remark : built.remarks)
+    remarks_ = std::move(built.remarks);
+    for (const std::string& remark : remarks_)
         log_->info(remark);
+}
+
+void Simulation::prepare()
+{
+    restore();
+    refuse_failures(description_, "stage.0", [this] {
+        if (!resuming_)
+            begin_stage();
+        check_fields(description_, registry_, model_, *force_state_);
+    });
+    is_prepared_ = true;
 }
 
 RunOutcome Simulation::run()
 {
-    restore();
     last_checkpoint_ = std::chrono::steady_clock::now();
     outputs_.begin(model_, describe_run());
+    writes_ = true;
     try {
         for (; at_.stage < description_.stages.size(); ++at_.stage) {
             const StageDescription& stage = description_.stages[at_.stage];
-            if (!resuming_)
+            if (!is_prepared_)
                 begin_stage();
-            resuming_ = false;
+            is_prepared_ = false;
+            open_history();
             if (!(is_quasi_static(stage) ? quasi_static(stage) : dynamic(stage))) {
                 progress_.clear();
                 checkpoint();
@@ -94,6 +124,8 @@ RunOutcome Simulation::run()
                          model_.points.position[failure.point()].z()));
     } catch (const RunFailure&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        fail("out of memory; a larger discretization.spacing or a smaller discretization.horizon needs less");
     } catch (const std::exception& error) {
         fail(error.what());
     }
@@ -104,13 +136,40 @@ RunOutcome Simulation::run()
     return RunOutcome::complete;
 }
 
+StableStep Simulation::step_of_motion()
+{
+    return stable_step(model_, *force_state_, contact_, frequency_, description_.time.safety, 0.0, true,
+                       contact_resolution(true));
+}
+
+double Simulation::seconds_of_a_step(double budget)
+{
+    constexpr int cold_steps = 2;
+    constexpr int least_steps = 3;
+    const StageDescription& stage = description_.stages[at_.stage];
+    StepOptions options;
+    if (is_quasi_static(stage)) {
+        options.local_damping = stage.damping;
+        options.response = stage.response == "elastic" ? MaterialResponse::elastic : MaterialResponse::full;
+    }
+    for (int n = 0; n < cold_steps; ++n)
+        take_step(options);
+    const double began = wall_seconds();
+    int steps = 0;
+    while (steps < least_steps || wall_seconds() - began < budget) {
+        take_step(options);
+        ++steps;
+    }
+    return (wall_seconds() - began) / steps;
+}
+
 RunDescription Simulation::describe_run() const
 {
     RunDescription run;
     run.directory = options_.directory;
     run.title = description_.title;
     run.resolved_case = description_.resolved;
-    run.provenance = provenance(description_, registry_, options_.threads);
+    run.provenance = provenance(inputs_, options_.threads);
     run.resumed = resuming_;
     run.resumed_step = at_.step;
     return run;
@@ -126,6 +185,13 @@ void Simulation::restore()
                    options_.directory.string());
         return;
     }
+    const ArchiveReader archive(file);
+    const std::string difference =
+        archive.has("inputs") ? inputs_.difference_from(InputHashes::from_text(archive.text("inputs"))) : "";
+    if (!difference.empty())
+        throw ForeignCheckpoint(fmt::format("{} cannot go on: {}; bring back the file as it was, or start anew with "
+                                            "--overwrite",
+                                            file.string(), difference));
     WaterCourse water;
     read_checkpoint(file, {model_, *force_state_, contact_, dynamics_, frequency_, at_, water}, description_.resolved,
                     settings_of(description_).skin,
@@ -168,12 +234,17 @@ void Simulation::begin_stage()
     dynamics_.book(water_.follow(model_, 0.0));
     dynamics_.start();
     renew_step();
-    if (!is_quasi_static(stage) && !at_.ledger_open) {
-        dynamics_.open_ledger();
-        at_.ledger_open = true;
-        outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name);
-        outputs_.write_now(model_, *force_state_, at_, stage.name);
-    }
+}
+
+void Simulation::open_history()
+{
+    const StageDescription& stage = description_.stages[at_.stage];
+    if (is_quasi_static(stage) || at_.ledger_open)
+        return;
+    dynamics_.open_ledger();
+    at_.ledger_open = true;
+    outputs_.write_due(model_, *force_state_, dynamics_, at_, stage.name);
+    outputs_.write_now(model_, *force_state_, at_, stage.name);
 }
 
 void Simulation::end_stage()
@@ -436,7 +507,7 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
     summary["stages"] = reports_;
     summary["wall_seconds"] = wall_seconds();
     summary["point_steps_per_second"] = point_rate;
-    summary["provenance"] = provenance(description_, registry_, options_.threads);
+    summary["provenance"] = provenance(inputs_, options_.threads);
     write_json(summary, options_.directory / "summary.json");
     log_->info("{}: {} steps, {} wall, {:.3g} point-steps/s, {:.3g} bond-steps/s", outcome, at_.step,
                duration_text(wall_seconds()), point_rate,
@@ -447,6 +518,8 @@ void Simulation::fail(const std::string& what)
 {
     const std::string& stage = description_.stages[at_.stage].name;
     const std::string message = fmt::format("stage '{}', step {}, time {:.6g} s: {}", stage, at_.step, at_.time, what);
+    if (!writes_)
+        throw refusal(description_, fmt::format("stage.{}", at_.stage), message);
     progress_.clear();
     outputs_.write_now(model_, *force_state_, at_, stage);
     outputs_.finish(false);

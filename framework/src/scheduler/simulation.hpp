@@ -8,6 +8,7 @@
 #include "io/checkpoint.hpp"
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
+#include "scheduler/input_hashes.hpp"
 #include "scheduler/interruption.hpp"
 #include "scheduler/output_schedule.hpp"
 #include "scheduler/progress.hpp"
@@ -27,11 +28,26 @@ namespace periporo {
 
 class Simulation {
 public:
+    /// Builds the model.
+    /// @throws CaseError, PluginError
     Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
                std::shared_ptr<spdlog::logger> log);
 
-    /// Runs all stages, or those that a checkpoint left over.
+    /// Checks the model and does all that comes before the first step: families, initial stress, stable step; or what a
+    /// checkpoint restores. Writes nothing.
+    /// @throws CaseError, or ForeignCheckpoint
+    void prepare();
+    /// Runs all stages, or those that a checkpoint left over. To be called after prepare().
     RunOutcome run();
+
+    const Model& model() const { return model_; }
+    /// What a user should know of the model as built.
+    const std::vector<std::string>& remarks() const { return remarks_; }
+    /// The stable step of a dynamic stage, of the model as prepare() leaves it.
+    StableStep step_of_motion();
+    /// Makes steps for about `budget` seconds and returns the time that one takes, without the first ones, in which
+    /// caches and threads are cold. The simulation serves for nothing else afterwards.
+    double seconds_of_a_step(double budget);
 
 private:
     RunDescription describe_run() const;
@@ -39,6 +55,8 @@ private:
     /// Gives the model the images and obstacles of a stage.
     void enter_stage(const StageDescription& stage);
     void begin_stage();
+    /// Opens the energy ledger and writes the first snapshot when the first dynamic stage begins.
+    void open_history();
     void end_stage();
     /// Warns of points that lay deep in what they touched.
     void report_contacts();
@@ -73,10 +91,12 @@ private:
     Dynamics dynamics_;
     FrequencyEstimate frequency_;
     RunPosition at_;
+    InputHashes inputs_;
     std::string stage_end_; ///< why the stage that has just ended did
     OutputSchedule outputs_;
     Progress progress_;
     InterruptionGuard interruption_;
+    std::vector<std::string> remarks_;
     nlohmann::json reports_ = nlohmann::json::array();
     std::chrono::steady_clock::time_point started_;
     std::chrono::steady_clock::time_point last_checkpoint_;
@@ -84,6 +104,8 @@ private:
     std::uint64_t steps_here_ = 0; ///< in this process, for the speed
     std::uint64_t estimates_ = 0;  ///< of the stable step, in this process
     bool resuming_ = false;
+    bool is_prepared_ = false; ///< the stage has begun, but not its first step
+    bool writes_ = false;      ///< results have been begun: failures leave a snapshot
 };
 
 } // namespace periporo

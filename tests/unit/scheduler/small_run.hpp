@@ -74,7 +74,8 @@ inline SmallRun run_text(const std::string& text)
     } catch (const std::exception& error) {
         result.failure = error.what();
     }
-    std::ifstream(options.directory / "summary.json") >> result.summary;
+    if (std::filesystem::exists(options.directory)) // not that of a case that was refused
+        std::ifstream(options.directory / "summary.json") >> result.summary;
     std::ifstream history(options.directory / "history.csv");
     result.history = columns_of(history);
     return result;

@@ -1,0 +1,204 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Says what a case is, how large it is and how long it takes; a large one is measured on a coarser lattice.
+#include "case/refusal.hpp"
+#include "scheduler/progress.hpp"
+#include "scheduler/run.hpp"
+#include "scheduler/simulation.hpp"
+#include "scheduler/size_estimate.hpp"
+#include "water/standing_water.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <omp.h>
+#include <optional>
+#include <spdlog/sinks/null_sink.h>
+
+namespace periporo {
+namespace {
+
+constexpr double points_to_build = 10000.0; ///< takes a second or two
+constexpr double measured_seconds = 0.7;
+/// A step of soil in flow takes up to twice as long: the law iterates and families are found anew. And it becomes
+/// shorter where points come closer.
+constexpr double slower_in_flow = 4.0;
+
+struct Extremes {
+    double least = std::numeric_limits<double>::infinity();
+    double largest = -std::numeric_limits<double>::infinity();
+
+    void add(double value)
+    {
+        least = std::min(least, value);
+        largest = std::max(largest, value);
+    }
+    std::string text() const
+    {
+        return least == largest ? fmt::format("{:.4g}", least) : fmt::format("{:.4g} to {:.4g}", least, largest);
+    }
+};
+
+/// A case, or the same case with a larger spacing, ready for its first step.
+struct Sample {
+    CaseDescription description;
+    double coarser = 1.0; ///< its spacing over that of the case
+    RunOptions options = {};
+    std::unique_ptr<Simulation> simulation = nullptr;
+};
+
+std::unique_ptr<Sample> prepared(const CaseDescription& description, const PluginRegistry& registry, double coarser)
+{
+    auto sample = std::make_unique<Sample>(Sample{description, coarser});
+    sample->description.discretization.spacing *= coarser;
+    sample->description.time.step.reset();
+    if (coarser > 1.0) // which need not divide the edges of a body
+        for (BodyDescription& body : sample->description.bodies)
+            body.fill.align = "axes";
+    sample->options.quiet = true;
+    const auto silent = std::make_shared<spdlog::logger>("explain", std::make_shared<spdlog::sinks::null_sink_mt>());
+    sample->simulation = std::make_unique<Simulation>(sample->description, registry, sample->options, silent);
+    sample->simulation->prepare();
+    return sample;
+}
+
+/// The case itself when it is small. A coarser lattice may miss thin parts; then one less coarse is tried.
+std::unique_ptr<Sample> sample_of(const CaseDescription& description, const PluginRegistry& registry, double points,
+                                  std::string& why_none)
+{
+    constexpr double most_tried = 4.0; // of points_to_build
+    double coarser = std::max(1.0, std::cbrt(points / points_to_build));
+    if (coarser == 1.0)
+        return prepared(description, registry, 1.0);
+    for (int attempt = 0; attempt < 2; ++attempt, coarser = std::max(1.0, coarser / std::cbrt(most_tried)))
+        try {
+            return prepared(description, registry, coarser);
+        } catch (const std::exception& error) {
+            why_none = error.what();
+        }
+    return nullptr;
+}
+
+std::string body_text(const BodyDescription& body, const Model& model, std::uint32_t b, double coarser)
+{
+    const StandingWater standing(model);
+    double count = 0.0, mass = 0.0, volume = 0.0, below = 0.0;
+    Extremes suction, saturation;
+    for (std::size_t i = 0; i < model.size(); ++i)
+        if (model.points.body[i] == b) {
+            count += 1.0;
+            mass += model.points.mass[i];
+            volume += model.points.volume[i];
+            below += model.points.volume[i] * standing.share_below(standing.height_of(i));
+            suction.add(model.points.suction(i));
+            saturation.add(model.points.saturation[i]);
+        }
+    const std::string points =
+        coarser == 1.0 ? fmt::format("{:.0f}", count) : fmt::format("about {:.2g}", count * std::pow(coarser, 3));
+    std::string text = fmt::format(
+        "  body '{}': {} of '{}', {} points, {:.4g} kg, {}\n", body.name, body.geometry.name, body.material, points,
+        mass,
+        body.water.type == "dry" ? "dry"
+                                 : fmt::format("suction {} Pa at saturation {}", suction.text(), saturation.text()));
+    if (model.bodies[b].has_standing_water())
+        text += fmt::format("    {:.1f} per cent of its volume below the water table, saturated and buoyant\n",
+                            100.0 * below / volume);
+    return text;
+}
+
+std::string memory_line(const SizeEstimate& size)
+{
+    const double available = available_memory();
+    return fmt::format("  memory: {} kept, up to {} while families are found anew; {} available{}\n",
+                       memory_text(size.bytes), memory_text(size.peak_bytes), memory_text(available),
+                       size.peak_bytes < available ? "" : ": does not fit, give a larger discretization.spacing");
+}
+
+std::string model_text(const CaseDescription& description, const Sample& sample)
+{
+    const Model& model = sample.simulation->model();
+    std::string text;
+    for (std::uint32_t b = 0; b < description.bodies.size(); ++b)
+        text += body_text(description.bodies[b], model, b, sample.coarser);
+    for (const ObstacleDescription& obstacle : description.obstacles)
+        text += fmt::format("  obstacle '{}': {}\n", obstacle.name, obstacle.geometry.name);
+    if (sample.coarser == 1.0) {
+        for (const std::string& remark : sample.simulation->remarks())
+            text += fmt::format("  {}\n", remark);
+        text += fmt::format("  spacing {:.4g} m, horizon {:.4g} m, {} bonds ({:.1f} a point), {} images\n",
+                            model.spacing, model.horizon, model.families.bonds(),
+                            static_cast<double>(model.families.bonds()) / static_cast<double>(model.size()),
+                            model.families.images().size());
+    } else {
+        text += fmt::format("  spacing {:.4g} m, horizon {:.4g} m\n", description.discretization.spacing,
+                            description.discretization.horizon());
+    }
+    return text + fmt::format("  force state {}, influence {}\n", description.operators.force_state,
+                              description.operators.influence);
+}
+
+/// @param step of the case [s], or nothing when it is not known
+std::string stages_text(const CaseDescription& description, const std::optional<double>& step)
+{
+    std::string text;
+    for (const StageDescription& stage : description.stages) {
+        if (stage.type == "quasi_static") {
+            text += fmt::format("  stage '{}': settles under gravity until the residual is {:.1e}, at most {} steps\n",
+                                stage.name, stage.residual, stage.maximum_steps);
+            continue;
+        }
+        text += fmt::format("  stage '{}': {:.4g} s{}\n", stage.name, stage.duration,
+                            step ? fmt::format(", {:.6g} steps", std::ceil(stage.duration / *step)) : "");
+        for (const WaterChangeDescription& change : stage.water_changes)
+            text += fmt::format("    the water of '{}' becomes {} within {:.4g} s\n", change.body, change.water.type,
+                                change.over);
+    }
+    return text;
+}
+
+/// Lengths scale with the spacing, and the stable step with them.
+std::string step_text(const CaseDescription& description, const StableStep& stable, double coarser, double step)
+{
+    std::string text = fmt::format("  step {:.4g} s (2/omega {:.4g} s, wave rule {:.4g} s{})\n", step,
+                                   2.0 / stable.frequency / coarser, stable.wave_limit / coarser,
+                                   stable.damping_rate > 0.0
+                                       ? fmt::format(", dashpots of contacts {:.3g} 1/s", stable.damping_rate * coarser)
+                                       : "");
+    if (description.time.step && step > stable.limit / coarser)
+        text += fmt::format("  this step is not stable, a run would refuse it: the largest stable one is {:.4g} s\n",
+                            stable.limit / coarser);
+    return text;
+}
+
+} // namespace
+
+std::string explain_case(const CaseDescription& description, const PluginRegistry& registry)
+{
+    const SizeEstimate size = estimate_size(description, registry);
+    std::string text = fmt::format("{}\n", description.title);
+    std::string why_none;
+    const std::unique_ptr<Sample> sample = sample_of(description, registry, size.points, why_none);
+    if (!sample)
+        return text +
+               fmt::format("  about {:.2g} points with {:.0f} bonds each\n", size.points, size.bonds_of_a_point) +
+               memory_line(size) + stages_text(description, description.time.step) +
+               fmt::format("  the time that a run takes is not known: on a coarser lattice, {}", why_none);
+    text += model_text(description, *sample) + memory_line(size);
+    const StableStep stable = sample->simulation->step_of_motion();
+    const double step = description.time.step.value_or(stable.step / sample->coarser);
+    text += step_text(description, stable, sample->coarser, step) + stages_text(description, step);
+    double steps = 0.0;
+    for (const StageDescription& stage : description.stages)
+        steps += stage.type == "quasi_static" ? 0.0 : stage.duration / step;
+    const double seconds =
+        steps * std::pow(sample->coarser, 3) * sample->simulation->seconds_of_a_step(measured_seconds);
+    return text + fmt::format("  {} to {} for the dynamic stages on {} threads, as measured {}", duration_text(seconds),
+                              duration_text(slower_in_flow * seconds), omp_get_max_threads(),
+                              sample->coarser == 1.0
+                                  ? "on its first steps"
+                                  : fmt::format("at a spacing of {:.3g} m", sample->simulation->model().spacing));
+}
+
+} // namespace periporo

@@ -1,0 +1,42 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// How large a case is, before anything of that size is made.
+#pragma once
+
+#include "case/description.hpp"
+#include "plugins/registry.hpp"
+
+namespace periporo {
+
+struct SizeEstimate {
+    double points = 0.0;           ///< volume over the cube of the spacing, on the kept side of symmetry planes
+    double bonds_of_a_point = 0.0; ///< within the horizon, inside a cubic lattice
+    double bytes = 0.0;            ///< that the model keeps; see bytes_of_a_point()
+    double peak_bytes = 0.0;       ///< while families are found anew
+};
+
+/// Memory of a point by Model::memory(), for N bonds and a material with s state variables:
+///
+///     1300 + N (12 + 8 (6 + s) h) + N (8 + 0.76 N^(2/3) w) B
+///
+/// with h = 1/2 where two points hold a bond together (bond_projection) and 1 elsewhere. The last term is that of the
+/// force states with sub-horizons: a bond shares about 0.38 N^(2/3) changes with the one before it, of two bytes, or
+/// four (w = 2) when a family has more than 255 members. The constants are those of blocks of 8,000 points with 29 to
+/// 204 bonds each, for which it is within 10 per cent.
+double bytes_of_a_point(const std::string& force_state, double bonds, std::size_t state_variables);
+
+/// @throws CaseError when a geometry cannot be made
+SizeEstimate estimate_size(const CaseDescription& description, const PluginRegistry& registry);
+
+/// Memory that this process may still take: what the machine has available, the limit of its control group and that of
+/// the process count [bytes].
+double available_memory();
+
+/// @throws CaseError with the numbers and what to change when the case has more points, bonds or bytes than fit.
+void check_size(const CaseDescription& description, const PluginRegistry& registry);
+
+/// "1.2 GB"
+std::string memory_text(double bytes);
+
+} // namespace periporo
