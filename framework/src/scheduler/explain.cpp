@@ -81,7 +81,9 @@ std::unique_ptr<Sample> sample_of(const CaseDescription& description, const Plug
     return nullptr;
 }
 
-std::string body_text(const BodyDescription& body, const Model& model, std::uint32_t b, double coarser)
+/// @param estimate of its points, or nothing when the model has all of them
+std::string body_text(const BodyDescription& body, const Model& model, std::uint32_t b,
+                      const std::optional<double>& estimate)
 {
     const StandingWater standing(model);
     double count = 0.0, mass = 0.0, volume = 0.0, below = 0.0;
@@ -95,8 +97,7 @@ std::string body_text(const BodyDescription& body, const Model& model, std::uint
             suction.add(model.points.suction(i));
             saturation.add(model.points.saturation[i]);
         }
-    const std::string points =
-        coarser == 1.0 ? fmt::format("{:.0f}", count) : fmt::format("about {:.2g}", count * std::pow(coarser, 3));
+    const std::string points = estimate ? fmt::format("about {:.2g}", *estimate) : fmt::format("{:.0f}", count);
     std::string text = fmt::format(
         "  body '{}': {} of '{}', {} points, {:.4g} kg, {}\n", body.name, body.geometry.name, body.material, points,
         mass,
@@ -108,6 +109,12 @@ std::string body_text(const BodyDescription& body, const Model& model, std::uint
     return text;
 }
 
+std::string time_text(double seconds)
+{
+    constexpr double century = 3.2e9;
+    return seconds < century ? duration_text(seconds) : "more than a century";
+}
+
 std::string memory_line(const SizeEstimate& size)
 {
     const double available = available_memory();
@@ -116,12 +123,13 @@ std::string memory_line(const SizeEstimate& size)
                        size.peak_bytes < available ? "" : ": does not fit, give a larger discretization.spacing");
 }
 
-std::string model_text(const CaseDescription& description, const Sample& sample)
+std::string model_text(const CaseDescription& description, const Sample& sample, const SizeEstimate& size)
 {
     const Model& model = sample.simulation->model();
     std::string text;
     for (std::uint32_t b = 0; b < description.bodies.size(); ++b)
-        text += body_text(description.bodies[b], model, b, sample.coarser);
+        text += body_text(description.bodies[b], model, b,
+                          sample.coarser == 1.0 ? std::nullopt : std::optional(size.points_of_bodies[b]));
     for (const ObstacleDescription& obstacle : description.obstacles)
         text += fmt::format("  obstacle '{}': {}\n", obstacle.name, obstacle.geometry.name);
     if (sample.coarser == 1.0) {
@@ -185,17 +193,18 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
                fmt::format("  about {:.2g} points with {:.0f} bonds each\n", size.points, size.bonds_of_a_point) +
                memory_line(size) + stages_text(description, description.time.step) +
                fmt::format("  the time that a run takes is not known: on a coarser lattice, {}", why_none);
-    text += model_text(description, *sample) + memory_line(size);
+    text += model_text(description, *sample, size) + memory_line(size);
     const StableStep stable = sample->simulation->step_of_motion();
     const double step = description.time.step.value_or(stable.step / sample->coarser);
     text += step_text(description, stable, sample->coarser, step) + stages_text(description, step);
     double steps = 0.0;
     for (const StageDescription& stage : description.stages)
         steps += stage.type == "quasi_static" ? 0.0 : stage.duration / step;
-    const double seconds =
-        steps * std::pow(sample->coarser, 3) * sample->simulation->seconds_of_a_step(measured_seconds);
-    return text + fmt::format("  {} to {} for the dynamic stages on {} threads, as measured {}", duration_text(seconds),
-                              duration_text(slower_in_flow * seconds), omp_get_max_threads(),
+    const double more_points =
+        sample->coarser == 1.0 ? 1.0 : size.points / static_cast<double>(sample->simulation->model().size());
+    const double seconds = steps * more_points * sample->simulation->seconds_of_a_step(measured_seconds);
+    return text + fmt::format("  {} to {} for the dynamic stages on {} threads, as measured {}", time_text(seconds),
+                              time_text(slower_in_flow * seconds), omp_get_max_threads(),
                               sample->coarser == 1.0
                                   ? "on its first steps"
                                   : fmt::format("at a spacing of {:.3g} m", sample->simulation->model().spacing));

@@ -31,6 +31,7 @@ std::string body_key(const Model& model, std::size_t body)
     return "body." + model.bodies[body].name;
 }
 
+/// The box around the points of a body and, as far as they tell, around the body: half a spacing and a little farther.
 Bounds bounds_of(const Model& model, std::size_t body)
 {
     Bounds bounds{Vector3::Constant(std::numeric_limits<double>::infinity()),
@@ -40,6 +41,8 @@ Bounds bounds_of(const Model& model, std::size_t body)
             bounds.lower = bounds.lower.cwiseMin(model.points.position[i]);
             bounds.upper = bounds.upper.cwiseMax(model.points.position[i]);
         }
+    bounds.lower.array() -= model.spacing;
+    bounds.upper.array() += model.spacing;
     return bounds;
 }
 

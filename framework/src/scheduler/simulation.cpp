@@ -146,6 +146,7 @@ double Simulation::seconds_of_a_step(double budget)
 {
     constexpr int cold_steps = 2;
     constexpr int least_steps = 3;
+    constexpr int most_steps = static_cast<int>(steps_per_check) - cold_steps - 1; // time and ledger stand still
     const StageDescription& stage = description_.stages[at_.stage];
     StepOptions options;
     if (is_quasi_static(stage)) {
@@ -156,7 +157,7 @@ double Simulation::seconds_of_a_step(double budget)
         take_step(options);
     const double began = wall_seconds();
     int steps = 0;
-    while (steps < least_steps || wall_seconds() - began < budget) {
+    while (steps < least_steps || (steps < most_steps && wall_seconds() - began < budget)) {
         take_step(options);
         ++steps;
     }

@@ -111,6 +111,7 @@ SizeEstimate estimate_size(const CaseDescription& description, const PluginRegis
         refuse_failures(description, "body." + body.name + ".geometry", [&] {
             const std::shared_ptr<const Geometry> geometry = geometries.make(body.geometry);
             const double points = geometry->volume() / cell * kept_part(description, geometry->bounds());
+            size.points_of_bodies.push_back(points);
             size.points += points;
             size.bytes +=
                 points * bytes_of_a_point(description.operators.force_state, size.bonds_of_a_point,

@@ -7,9 +7,13 @@
 #include "case/description.hpp"
 #include "plugins/registry.hpp"
 
+#include <string>
+#include <vector>
+
 namespace periporo {
 
 struct SizeEstimate {
+    std::vector<double> points_of_bodies;
     double points = 0.0;           ///< volume over the cube of the spacing, on the kept side of symmetry planes
     double bonds_of_a_point = 0.0; ///< within the horizon, inside a cubic lattice
     double bytes = 0.0;            ///< that the model keeps; see bytes_of_a_point()

@@ -124,15 +124,17 @@ TEST_CASE("a library that was cut off anywhere is refused, since loading it woul
     for (const std::uintmax_t length :
          {std::uintmax_t{0}, std::uintmax_t{40}, std::uintmax_t{100}, size / 4, size / 2, size - 1}) {
         CAPTURE(length);
-        const std::filesystem::path file = folder / ("cut" + std::to_string(length) + ".so");
+        const std::filesystem::path file = folder / std::to_string(length) / "cut.so";
+        std::filesystem::create_directory(file.parent_path());
         std::filesystem::copy(libraries / "speck" / "speck.so", file);
         std::filesystem::resize_file(file, length);
         PluginRegistry registry;
-        registry.load(file);
+        registry.load_folders({file.parent_path()});
         CHECK(registry.plugins().empty());
         REQUIRE(registry.failures().size() == 1);
         const std::string& reason = registry.failures()[0].reason;
-        const bool told = reason.find("cut off") != std::string::npos || reason.find("it is no shared library") != std::string::npos;
+        const bool told =
+            reason.find("cut off") != std::string::npos || reason.find("it is no shared library") != std::string::npos;
         CHECK_MESSAGE(told, reason);
     }
 }
