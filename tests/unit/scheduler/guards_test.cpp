@@ -58,9 +58,7 @@ TEST_CASE("a given step that is not stable is refused before the first step, wit
         CAPTURE(part);
         CHECK(contains(run.failure, part));
     }
-    CHECK(run.summary.at("outcome") == "failed");
-    CHECK(contains(run.summary.at("message"), "is not stable"));
-    CHECK(run.summary.at("steps") == 0);
+    CHECK(run.summary.is_null()); // nothing is written of a case that is refused
 }
 
 TEST_CASE("a given step that is stable in flight and not on the ground is stopped before the ground is felt")
