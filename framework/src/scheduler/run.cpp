@@ -4,6 +4,7 @@
 #include "scheduler/run.hpp"
 
 #include "operator/refresh.hpp"
+#include "periporo/file.hpp"
 #include "scheduler/build_model.hpp"
 #include "scheduler/progress.hpp"
 #include "scheduler/set_up_picture.hpp"
@@ -31,6 +32,8 @@ std::shared_ptr<spdlog::logger> make_log(const RunOptions& options)
     terminal->set_level(options.quiet ? spdlog::level::warn : spdlog::level::info);
     auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{file, terminal});
     log->flush_on(spdlog::level::info);
+    // A log that cannot be written is no reason to end: what a run needs on the disk tells it by its own error.
+    log->set_error_handler([](const std::string&) {});
     return log;
 }
 
@@ -61,7 +64,7 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
         for (const std::string& warning : description.warnings)
             log->warn(warning);
         log->info("{}: '{}' into {}", description.file.string(), description.title, options.directory.string());
-        std::ofstream(options.directory / "case.toml") << description.resolved;
+        write_whole(options.directory / "case.toml", description.resolved);
         Simulation simulation(description, registry, options, log);
         return simulation.run();
     } catch (const std::exception& error) {
