@@ -1,8 +1,10 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Keeps one run from writing into the results of another.
+// Keeps one run from writing into the results of another, or over files of somebody else.
 #pragma once
+
+#include "io/run_folder.hpp"
 
 #include <filesystem>
 
@@ -14,12 +16,14 @@ enum class ExistingResults {
     overwrite ///< delete what is there
 };
 
-/// Where results go when nothing else is said: `results/<name of the case file>` under the current folder.
+/// Where results go when nothing else is said: `results/<name of the case file>` under the current folder, the name
+/// without its extension and without dots at its beginning.
 std::filesystem::path default_result_folder(const std::filesystem::path& case_file);
 
-/// Makes sure that results may be written to `folder`. Makes nothing; deletes only with `overwrite`, and only a folder
-/// that holds results of this program.
-/// @throws UsageError with a way out.
-void prepare_result_folder(const std::filesystem::path& folder, ExistingResults existing);
+/// Makes sure that results may be written to `folder`, and keeps it for this run as long as the lock lives. With
+/// `overwrite` deletes what a run wrote there and nothing else: files of somebody else stay, and are named on standard
+/// error.
+/// @throws UsageError or FolderError with a way out; nothing is changed then.
+FolderLock take_result_folder(const std::filesystem::path& folder, ExistingResults existing);
 
 } // namespace periporo::cli

@@ -31,7 +31,7 @@ ExitStatus run(RunArguments& arguments)
     const CaseDescription description = read_case(arguments.the_case.file, arguments.the_case.options, registry);
     if (arguments.options.directory.empty())
         arguments.options.directory = default_result_folder(arguments.the_case.file);
-    prepare_result_folder(arguments.options.directory, existing_results(arguments));
+    const FolderLock lock = take_result_folder(arguments.options.directory, existing_results(arguments));
     const RunOutcome outcome = run_case(description, registry, arguments.options);
     return outcome == RunOutcome::complete ? ExitStatus::done : ExitStatus::interrupted;
 }
