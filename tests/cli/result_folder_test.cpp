@@ -40,11 +40,12 @@ std::map<std::string, std::string> files_in(const std::filesystem::path& folder)
 /// What a run leaves that was killed after a checkpoint.
 void leave_unfinished_run(const ProgramFolder& folder)
 {
-    folder.write("killed.sh", fmt::format("'{}' {} {} &\n"
-                                          "pid=$!\n"
-                                          "until ls it/checkpoint.* > /dev/null 2>&1; do sleep 0.02; done\n"
-                                          "kill -KILL $pid\nwait $pid\n",
-                                          PERIPORO_PROGRAM, run_it, for_long));
+    folder.write("killed.sh",
+                 fmt::format("'{}' {} {} &\n"
+                             "pid=$!\n"
+                             "while kill -0 $pid && ! ls it/checkpoint.* > /dev/null 2>&1; do sleep 0.02; done\n"
+                             "kill -KILL $pid\nwait $pid\n",
+                             PERIPORO_PROGRAM, run_it, for_long));
     std::system(("cd '" + folder.path().string() + "' && sh killed.sh 2> /dev/null").c_str());
 }
 
@@ -56,7 +57,7 @@ TEST_CASE("a second run into the folder of a run that goes on is refused with th
     folder.write("both.sh", fmt::format("'{0}' {1} {2} &\n"
                                         "pid=$!\n"
                                         "echo $pid > process\n"
-                                        "until [ -s it/history.csv ]; do sleep 0.02; done\n"
+                                        "while kill -0 $pid && ! [ -s it/history.csv ]; do sleep 0.02; done\n"
                                         "for more in '' --resume --overwrite; do\n"
                                         "  '{0}' {1} $more 2>> errors\n"
                                         "  echo $? >> statuses\n"
@@ -168,11 +169,12 @@ TEST_CASE("a folder that cannot be written is refused before anything is compute
 TEST_CASE("a folder that is taken away while a run writes into it ends the run with one message")
 {
     const CaseFolder folder;
-    folder.write("away.sh", fmt::format("'{}' {} {} 2> errors &\n"
-                                        "pid=$!\n"
-                                        "until ls it/checkpoint.* > /dev/null 2>&1; do sleep 0.02; done\n"
-                                        "mv it gone\nwait $pid\necho $? > status\n",
-                                        PERIPORO_PROGRAM, run_it, for_long));
+    folder.write("away.sh",
+                 fmt::format("'{}' {} {} 2> errors &\n"
+                             "pid=$!\n"
+                             "while kill -0 $pid && ! ls it/checkpoint.* > /dev/null 2>&1; do sleep 0.02; done\n"
+                             "mv it gone\nwait $pid\necho $? > status\n",
+                             PERIPORO_PROGRAM, run_it, for_long));
     std::system(("cd '" + folder.path().string() + "' && sh away.sh").c_str());
     CHECK(ProgramFolder::read(folder.path() / "status") == "1\n");
     const std::string errors = ProgramFolder::read(folder.path() / "errors");
