@@ -37,6 +37,7 @@ public:
     FaultyRun() { folder_.write("case.toml", small_case); }
 
     std::filesystem::path out() const { return folder_.path() / "out"; }
+    std::string below; ///< beginning of the names in the folder that the fault is for, "/results"; all when empty
 
     /// The run without a fault, or what is left of it.
     ProgramResult run(const std::string& more) const
@@ -46,7 +47,7 @@ public:
     /// @param kind, at as in fault_at_call.c
     ProgramResult run_with_fault(const std::string& kind, long at, const std::string& more = "", int error = 0) const
     {
-        ::setenv("FAULT_FOLDER", out().c_str(), 1);
+        ::setenv("FAULT_FOLDER", (out().string() + below).c_str(), 1);
         ::setenv("FAULT_KIND", kind.c_str(), 1);
         ::setenv("FAULT_AT", std::to_string(at).c_str(), 1);
         ::setenv("FAULT_ERROR", std::to_string(error).c_str(), 1);

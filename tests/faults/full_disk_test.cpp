@@ -4,7 +4,8 @@
 // A disk that is full, or a process without file handles: one message with the system's reason, and a run that goes on
 // when there is room again.
 //
-// The suite tries a spread of the calls at which the disk is full; PERIPORO_EVERY_CALL=1 tries all of them.
+// The fault is for the files of the writers and the mark of the folder. The suite tries a spread of the calls at which
+// the disk is full; PERIPORO_EVERY_CALL=1 tries all of them.
 #include "faults/faulty_run.hpp"
 
 #include <cerrno>
@@ -22,14 +23,17 @@ std::size_t count(const std::string& text, const std::string& part)
     return number;
 }
 
-void check_fault(int error, long tries)
+/// @param below as in FaultyRun
+void check_fault(int error, const std::string& below, long tries)
 {
-    const FaultyRun whole;
+    FaultyRun whole;
+    whole.below = below;
     REQUIRE(whole.run_with_fault("none", 0).status == 0);
     const auto expected = whole.results();
-    for (long call = 1; call <= whole.calls(); call += every_call() ? 1 : whole.calls() / tries) {
+    for (long call = 1; call <= whole.calls(); call += every_call() ? 1 : 1 + whole.calls() / tries) {
         CAPTURE(call);
-        const FaultyRun full;
+        FaultyRun full;
+        full.below = below;
         const ProgramResult failed = full.run_with_fault("fail", call, "", error);
         INFO(failed.error);
         if (failed.status == 0) // what is left needs no room: deleting what only a resumed run would need
@@ -49,19 +53,22 @@ void check_fault(int error, long tries)
 
 TEST_CASE("a full disk is told with the reason of the system, and the run goes on when there is room")
 {
-    check_fault(ENOSPC, 12);
+    for (const char* below : {"/results", "/history.csv", "/periporo.run"})
+        check_fault(ENOSPC, below, 6);
 }
 
 TEST_CASE("a process without file handles says so, and its run can be resumed")
 {
-    check_fault(EMFILE, 6);
+    check_fault(EMFILE, "/results", 6);
 }
 
 TEST_CASE("a failed write names the file, the step and the way on")
 {
-    const FaultyRun whole;
+    FaultyRun whole;
+    whole.below = "/results";
     REQUIRE(whole.run_with_fault("none", 0).status == 0);
-    const FaultyRun full;
+    FaultyRun full;
+    full.below = "/results";
     const ProgramResult failed = full.run_with_fault("fail", whole.calls() / 2, "", ENOSPC);
     CHECK(failed.status == 1);
     const std::string out = full.out().string();
