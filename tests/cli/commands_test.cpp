@@ -191,9 +191,9 @@ TEST_CASE("run does not write over earlier results unless it is told to")
     CHECK(contains(refused.error, "--overwrite"));
     CHECK(ProgramFolder::read(folder.path() / "here/run.log") == log);
 
-    folder.write("here/leftover.txt", "of an earlier run");
+    folder.write("here/history.csv.damaged", "of an earlier run");
     CHECK(folder.run("run case.toml --out here --quiet --overwrite").status == 0);
-    CHECK_FALSE(std::filesystem::exists(folder.path() / "here/leftover.txt"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "here/history.csv.damaged"));
 }
 
 TEST_CASE("overwrite with a wrong case deletes nothing")

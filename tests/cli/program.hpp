@@ -31,12 +31,14 @@ public:
     void write(const std::string& name, const std::string& text) const { write_file(folder_ / name, text); }
 
     /// @param arguments as typed in a shell.
-    ProgramResult run(const std::string& arguments) const
+    /// @param environment settings that are typed before the program
+    ProgramResult run(const std::string& arguments, const std::string& environment = "") const
     {
         const std::filesystem::path out = captured_ / "out";
         const std::filesystem::path error = captured_ / "error";
-        const std::string command = "cd '" + folder_.path().string() + "' && '" PERIPORO_PROGRAM "' " + arguments +
-                                    " > '" + out.string() + "' 2> '" + error.string() + "'";
+        const std::string command = "cd '" + folder_.path().string() + "' && " + environment +
+                                    " '" PERIPORO_PROGRAM "' " + arguments + " > '" + out.string() + "' 2> '" +
+                                    error.string() + "'";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(error)};
     }

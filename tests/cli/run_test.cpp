@@ -85,7 +85,7 @@ TEST_CASE("a run stopped three times, at first while it settles, and resumed end
         const int status = std::system(("cd '" + folder.path().string() + "' && sh stopped.sh").c_str());
         return WEXITSTATUS(status);
     };
-    const auto rows = [](int count) { return fmt::format("[ $(cat parts/history.csv.part | wc -l) -ge {} ]", count); };
+    const auto rows = [](int count) { return fmt::format("[ $(cat parts/history.csv | wc -l) -ge {} ]", count); };
     REQUIRE(stopped("TERM", "{ grep -q 'stable step' parts/run.log && sleep 0.2; }", "") == 130);
     CHECK(ProgramFolder::read(folder.path() / "parts/run.log").find("interrupted in stage 'geostatic'") !=
           std::string::npos);
@@ -104,11 +104,10 @@ TEST_CASE("a run stopped three times, at first while it settles, and resumed end
 TEST_CASE("a checkpoint of another case or another version of the program is refused")
 {
     const ProgramFolder folder;
-    folder.write(
-        "stop.sh",
-        "'" PERIPORO_PROGRAM "' " + coarse +
-            " --quiet --threads 1 --out it &\npid=$!\n"
-            "while kill -0 $pid 2> /dev/null && [ ! -s it/history.csv.part ]; do :; done\nkill $pid\nwait $pid\n");
+    folder.write("stop.sh",
+                 "'" PERIPORO_PROGRAM "' " + coarse +
+                     " --quiet --threads 1 --out it &\npid=$!\n"
+                     "while kill -0 $pid 2> /dev/null && [ ! -s it/history.csv ]; do :; done\nkill $pid\nwait $pid\n");
     std::system(("cd '" + folder.path().string() + "' && sh stop.sh").c_str());
     const ProgramResult result = folder.run(coarse + "--set 'contact.0.friction=0.4' --out it --resume");
     CHECK(result.status == 2);

@@ -49,6 +49,8 @@ def _arguments(arguments: list[str] | None) -> argparse.Namespace:
 
 def _draw(folder: Path, options: argparse.Namespace) -> None:
     with Results(folder, options.field) as results:
+        for lost in results.missing:
+            print(f"pictures: the results in {folder} lack {lost}", file=sys.stderr)
         comparison = verdict.compare(results)
         write_comparison(folder, comparison)
         extent = options.extent and options.extent * 1e-3

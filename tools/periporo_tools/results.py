@@ -81,17 +81,37 @@ class Results:
         path = folder / "results.h5"
         if not path.is_file():
             raise ResultError(f"{path}: there is no such file; has the case been run with the writer \"hdf5\"?")
+        self._open(path)
+        if "snapshots" not in self._file or not len(self._file["snapshots"]):
+            raise ResultError(f"{path}: it holds no snapshot")
+        self._names = sorted(self._file["snapshots"])
+        self.times = np.array([float(self._group(name).attrs["time"]) for name in self._names])
+        self.complete = bool(self._file.attrs.get("complete", True))
+        self.missing = _text(self._file.attrs.get("missing")).splitlines()  # what was lost, in words
+        self.summary = read_summary(folder)
+        self._case = self.summary.get("case") or {}
+
+    def _open(self, path: Path) -> None:
         try:
             self._file = h5py.File(path, "r")
         except OSError as error:
             raise ResultError(f"{path}: not a readable HDF5 file ({error})") from error
-        if "snapshots" not in self._file or not len(self._file["snapshots"]):
-            raise ResultError(f"{path}: it holds no snapshot")
-        self._names = sorted(self._file["snapshots"])
-        self.times = np.array([float(self._file["snapshots"][name].attrs["time"]) for name in self._names])
-        self.complete = bool(self._file.attrs.get("complete", True))
-        self.summary = read_summary(folder)
-        self._case = self.summary.get("case") or {}
+
+    def _group(self, name: str) -> h5py.Group:
+        """A snapshot. Until a run is complete it is a link to another file, which is merged and deleted at the end: then
+        the new results.h5 is opened."""
+        try:
+            return self._file["snapshots"][name]
+        except KeyError:
+            self.close()
+            self._open(self.folder / "results.h5")
+        try:
+            return self._file["snapshots"][name]
+        except KeyError as error:
+            raise ResultError(
+                f"{self.folder / 'results.h5'}: snapshot {name} is not there; have its parts in"
+                f" {self.folder / 'results.parts'} been deleted, or has results.h5 been copied without them?"
+            ) from error
 
     def close(self) -> None:
         self._file.close()
@@ -124,7 +144,7 @@ class Results:
         given = self._case.get("spacing")
         if given:
             return float(given)
-        volume = np.asarray(self._file["snapshots"][self._names[0]]["volume"])
+        volume = np.asarray(self._group(self._names[0])["volume"])
         return float(np.cbrt(np.median(volume)))
 
     @property
@@ -138,7 +158,7 @@ class Results:
         return int(np.argmin(np.abs(self.times - time)))
 
     def snapshot(self, index: int) -> Snapshot:
-        group = self._file["snapshots"][self._names[index]]
+        group = self._group(self._names[index])
         position = np.asarray(group["position"], dtype=float)
         finite = np.isfinite(position).all(axis=1)
         if not finite.any():
@@ -181,7 +201,7 @@ class Results:
 
     def values(self, index: int, name: str) -> np.ndarray:
         """A field of a snapshot, for the points that `snapshot(index)` returns, in its order."""
-        group = self._file["snapshots"][self._names[index]]
+        group = self._group(self._names[index])
         if name not in group:
             raise ResultError(f"{self.folder / 'results.h5'}: its snapshots hold no field \"{name}\"")
         finite = np.isfinite(np.asarray(group["position"], dtype=float)).all(axis=1)

@@ -347,8 +347,9 @@ TableRules run_rules()
 {
     return {{Parameter::real(
                  "checkpoint_every", dimension::time,
-                 "Wall-clock time between checkpoints; longer where they would take more than a twentieth of it")
-                 .above(0.0)
+                 "Wall-clock time between checkpoints; longer where they would take more than a twentieth of it; 0 for "
+                 "one after every step, whatever it takes")
+                 .at_least(0.0)
                  .by_default(60.0),
              Parameter::real("history_every", dimension::time, "Simulated time between rows of the history")
                  .above(0.0)

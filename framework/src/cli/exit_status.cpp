@@ -6,6 +6,7 @@
 
 #include "case/reader.hpp"
 #include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
 #include "plugins/registry.hpp"
 
 #include <fmt/core.h>
@@ -36,6 +37,8 @@ ExitStatus report_faults(const std::function<ExitStatus()>& action)
     } catch (const PluginError& error) {
         return complain(ExitStatus::wrong_input, error.what());
     } catch (const UsageError& error) {
+        return complain(ExitStatus::wrong_input, error.what());
+    } catch (const FolderError& error) {
         return complain(ExitStatus::wrong_input, error.what());
     } catch (const ForeignCheckpoint& error) {
         return complain(ExitStatus::wrong_input, error.what());

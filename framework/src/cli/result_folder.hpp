@@ -1,8 +1,10 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Keeps one run from writing into the results of another.
+// Keeps one run from writing into the results of another, or over files of somebody else.
 #pragma once
+
+#include "io/run_folder.hpp"
 
 #include <filesystem>
 
@@ -14,15 +16,17 @@ enum class ExistingResults {
     overwrite ///< delete what is there
 };
 
-/// Where results go when nothing else is said: `results/<name of the case file>` under the current folder.
+/// Where results go when nothing else is said: `results/<name of the case file>` under the current folder, the name
+/// without its extension and without dots at its beginning.
 std::filesystem::path default_result_folder(const std::filesystem::path& case_file);
 
 /// Makes sure that results may be written to `folder`. Makes and deletes nothing.
-/// @throws UsageError with a way out.
+/// @throws UsageError or FolderError with a way out.
 void check_result_folder(const std::filesystem::path& folder, ExistingResults existing);
 
-/// Checks the folder again and, with `overwrite`, empties it, but only one that holds results of this program.
-/// @throws UsageError with a way out.
-void prepare_result_folder(const std::filesystem::path& folder, ExistingResults existing);
+/// Checks the folder again, and keeps it for this run as long as the lock lives. With `overwrite` deletes what a run wrote
+/// there and nothing else: files of somebody else stay, and are named on standard error.
+/// @throws UsageError or FolderError with a way out; nothing is changed then.
+FolderLock take_result_folder(const std::filesystem::path& folder, ExistingResults existing);
 
 } // namespace periporo::cli

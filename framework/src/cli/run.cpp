@@ -8,6 +8,7 @@
 #include "cli/threads.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace periporo::cli {
 namespace {
@@ -33,10 +34,10 @@ ExitStatus run(RunArguments& arguments)
     const CaseDescription description = read_case(arguments.the_case.file, arguments.the_case.options, registry);
     if (arguments.options.directory.empty())
         arguments.options.directory = default_result_folder(arguments.the_case.file);
-    check_result_folder(arguments.options.directory, existing_results(arguments));
-    arguments.options.take_folder = [&] {
-        prepare_result_folder(arguments.options.directory, existing_results(arguments));
-    };
+    const ExistingResults existing = existing_results(arguments);
+    check_result_folder(arguments.options.directory, existing);
+    std::optional<FolderLock> lock; // until the end of the run
+    arguments.options.take_folder = [&] { lock.emplace(take_result_folder(arguments.options.directory, existing)); };
     const RunOutcome outcome = run_case(description, registry, arguments.options);
     return outcome == RunOutcome::complete ? ExitStatus::done : ExitStatus::interrupted;
 }

@@ -7,7 +7,7 @@
 #include "case/resolved.hpp"
 #include "drive/stage_plan.hpp"
 #include "drive/yield_surface.hpp"
-#include "io/write_whole.hpp"
+#include "periporo/file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,7 +3,7 @@
 //
 #include "io/svg.hpp"
 
-#include "io/write_whole.hpp"
+#include "periporo/file.hpp"
 
 #include <fmt/format.h>
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 namespace periporo {
@@ -39,11 +40,20 @@ OutputSchedule::OutputSchedule(const CaseDescription& description, const PluginR
             {registry.make_output(output.writer.name, output.writer.parameters), times_of(output, end), never});
 }
 
+std::vector<std::string> OutputSchedule::files() const
+{
+    std::vector<std::string> names;
+    for (const Output& output : outputs_)
+        for (std::string& name : output.writer->files())
+            names.push_back(std::move(name));
+    return names;
+}
+
 void OutputSchedule::begin(const Model& model, RunDescription run)
 {
     run.history = history_columns(model);
     for (Output& output : outputs_)
-        output.writer->begin(run);
+        output.use([&](OutputWriter& writer) { writer.begin(run); });
 }
 
 Snapshot OutputSchedule::snapshot(const Model& model, const ForceState& force_state, const RunPosition& at,
@@ -77,7 +87,7 @@ void OutputSchedule::write_due(const Model& model, const ForceState& force_state
         if (!have)
             taken = snapshot(model, force_state, at, stage);
         have = true;
-        output.writer->snapshot(taken);
+        output.use([&](OutputWriter& writer) { writer.snapshot(taken); });
         output.written_step = at.step;
     }
 }
@@ -89,7 +99,7 @@ void OutputSchedule::write_history(const Model& model, const Dynamics& dynamics,
     history_step_ = at.step;
     const std::vector<double> row = history_row(model, dynamics, at.time, at.time_step);
     for (Output& output : outputs_)
-        output.writer->history(at.step, row);
+        output.use([&](OutputWriter& writer) { writer.history(at.step, row); });
 }
 
 void OutputSchedule::write_now(const Model& model, const ForceState& force_state, const RunPosition& at,
@@ -103,21 +113,39 @@ void OutputSchedule::write_now(const Model& model, const ForceState& force_state
         if (!have)
             taken = snapshot(model, force_state, at, stage);
         have = true;
-        output.writer->snapshot(taken);
+        output.use([&](OutputWriter& writer) { writer.snapshot(taken); });
         output.written_step = at.step;
     }
 }
 
-void OutputSchedule::flush()
+void OutputSchedule::flush(std::uint64_t step)
 {
     for (Output& output : outputs_)
-        output.writer->flush();
+        output.use([&](OutputWriter& writer) { writer.flush(step); });
 }
 
 void OutputSchedule::finish(bool complete)
 {
+    std::exception_ptr first; // of one writer; the others finish all the same
     for (Output& output : outputs_)
-        output.writer->finish(complete);
+        try {
+            output.use([&](OutputWriter& writer) { writer.finish(complete); });
+        } catch (...) {
+            first = first ? first : std::current_exception();
+        }
+    if (first)
+        std::rethrow_exception(first);
+}
+
+bool OutputSchedule::failed() const
+{
+    return std::ranges::any_of(outputs_, &Output::failed);
+}
+
+void OutputSchedule::clean_up()
+{
+    for (Output& output : outputs_)
+        output.use([](OutputWriter& writer) { writer.clean_up(); });
 }
 
 } // namespace periporo

@@ -3,6 +3,7 @@
 //
 #include "scheduler/run.hpp"
 
+#include "periporo/file.hpp"
 #include "scheduler/build_model.hpp"
 #include "scheduler/run_log.hpp"
 #include "scheduler/set_up_picture.hpp"
@@ -29,9 +30,10 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
         simulation.prepare();
         if (options.take_folder)
             options.take_folder();
-        std::filesystem::create_directories(options.directory);
+        else
+            std::filesystem::create_directories(options.directory);
         log.open(options.directory / "run.log", options.resume);
-        std::ofstream(options.directory / "case.toml") << description.resolved;
+        write_whole(options.directory / "case.toml", description.resolved);
         return simulation.run();
     } catch (const std::exception& error) {
         log.add_to_file(error.what());

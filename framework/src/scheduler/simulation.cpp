@@ -5,6 +5,7 @@
 
 #include "case/refusal.hpp"
 #include "io/archive.hpp"
+#include "io/run_folder.hpp"
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
 #include "scheduler/guards.hpp"
@@ -98,6 +99,7 @@ void Simulation::prepare()
 RunOutcome Simulation::run()
 {
     last_checkpoint_ = std::chrono::steady_clock::now();
+    note_names(options_.directory, outputs_.files(), !resuming_);
     outputs_.begin(model_, describe_run());
     writes_ = true;
     try {
@@ -118,6 +120,8 @@ RunOutcome Simulation::run()
             }
             end_stage();
         }
+        progress_.clear();
+        outputs_.finish(true);
     } catch (const MaterialFailure& failure) {
         fail(fmt::format("{} at position ({:.5g}, {:.5g}, {:.5g}) m", failure.what(),
                          model_.points.position[failure.point()].x(), model_.points.position[failure.point()].y(),
@@ -129,10 +133,9 @@ RunOutcome Simulation::run()
     } catch (const std::exception& error) {
         fail(error.what());
     }
-    progress_.clear();
-    outputs_.finish(true);
     write_summary("complete", "");
     std::filesystem::remove(options_.directory / "checkpoint.h5");
+    outputs_.clean_up();
     return RunOutcome::complete;
 }
 
@@ -173,6 +176,7 @@ RunDescription Simulation::describe_run() const
     run.provenance = provenance(inputs_, options_.threads);
     run.resumed = resuming_;
     run.resumed_step = at_.step;
+    run.warn = [this](const std::string& text) { log_->warn(text); };
     return run;
 }
 
@@ -201,6 +205,7 @@ void Simulation::restore()
     dynamics_.hold(held_directions(model_, description_, held_regions_, description_.stages[at_.stage]));
     reports_ = nlohmann::json::parse(at_.stage_reports);
     resuming_ = true;
+    checkpoint_step_ = at_.step;
     log_->info("resumed in stage '{}' at step {}, time {:.6g} s", description_.stages[at_.stage].name, at_.step,
                at_.time);
 }
@@ -465,7 +470,7 @@ void Simulation::check_crossings()
 bool Simulation::stop_here()
 {
     const std::chrono::duration<double> every(std::max(description_.checkpoint_every, 20.0 * checkpoint_took_.count()));
-    if (std::chrono::steady_clock::now() - last_checkpoint_ > every)
+    if (description_.checkpoint_every == 0.0 || std::chrono::steady_clock::now() - last_checkpoint_ > every)
         dynamics_.times().time(Phase::output, [&] { checkpoint(); });
     return interruption_.requested();
 }
@@ -473,7 +478,7 @@ bool Simulation::stop_here()
 void Simulation::checkpoint()
 {
     const auto began = std::chrono::steady_clock::now();
-    outputs_.flush();
+    outputs_.flush(at_.step);
     RunPosition position = at_;
     position.wall_seconds = wall_seconds();
     position.stage_reports = reports_.dump();
@@ -482,6 +487,7 @@ void Simulation::checkpoint()
                      {model_, *force_state_, contact_, dynamics_, frequency_, position, water}, description_.resolved);
     last_checkpoint_ = std::chrono::steady_clock::now();
     checkpoint_took_ = last_checkpoint_ - began;
+    checkpoint_step_ = at_.step;
 }
 
 double Simulation::wall_seconds() const
@@ -517,16 +523,33 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
 
 void Simulation::fail(const std::string& what)
 {
-    const std::string& stage = description_.stages[at_.stage].name;
+    const std::string& stage = description_.stages[std::min(at_.stage, description_.stages.size() - 1)].name;
     const std::string message = fmt::format("stage '{}', step {}, time {:.6g} s: {}", stage, at_.step, at_.time, what);
     if (!writes_)
         throw refusal(description_, fmt::format("stage.{}", at_.stage), message);
     progress_.clear();
-    outputs_.write_now(model_, *force_state_, at_, stage);
-    outputs_.finish(false);
-    write_summary("failed", message);
-    throw RunFailure(message +
-                     fmt::format("\nthe state at the failure is the last snapshot in {}", options_.directory.string()));
+    const bool not_written = outputs_.failed();
+    std::string second; // an error while failing does not hide the first
+    const auto attempt = [&](auto&& action) {
+        try {
+            action();
+        } catch (const std::exception& error) {
+            if (second.empty())
+                second = error.what();
+        }
+    };
+    attempt([&] { outputs_.write_now(model_, *force_state_, at_, stage); });
+    attempt([&] { outputs_.finish(false); });
+    const bool stored = !not_written && second.empty();
+    attempt([&] { write_summary("failed", message); });
+    std::string rest =
+        stored        ? fmt::format("the state at the failure is the last snapshot in {}", options_.directory.string())
+        : not_written ? "the state at the failure is not stored"
+                      : fmt::format("the state at the failure is not stored: {}", second);
+    if (!stored)
+        rest += checkpoint_step_ ? fmt::format("; --resume goes on from the checkpoint of step {}", *checkpoint_step_)
+                                 : "; there is no checkpoint yet to resume from";
+    throw RunFailure(message + "\n" + rest);
 }
 
 } // namespace periporo

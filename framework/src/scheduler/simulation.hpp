@@ -101,8 +101,9 @@ private:
     std::chrono::steady_clock::time_point started_;
     std::chrono::steady_clock::time_point last_checkpoint_;
     std::chrono::duration<double> checkpoint_took_{0.0};
-    std::uint64_t steps_here_ = 0; ///< in this process, for the speed
-    std::uint64_t estimates_ = 0;  ///< of the stable step, in this process
+    std::optional<std::uint64_t> checkpoint_step_; ///< of the last checkpoint
+    std::uint64_t steps_here_ = 0;                 ///< in this process, for the speed
+    std::uint64_t estimates_ = 0;                  ///< of the stable step, in this process
     bool resuming_ = false;
     bool is_prepared_ = false; ///< the stage has begun, but not its first step
     bool writes_ = false;      ///< results have been begun: failures leave a snapshot

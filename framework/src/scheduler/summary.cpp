@@ -3,7 +3,7 @@
 //
 #include "scheduler/summary.hpp"
 
-#include "io/write_whole.hpp"
+#include "periporo/file.hpp"
 
 namespace periporo {
 

@@ -75,7 +75,7 @@ TEST_CASE("a resumed run keeps the rows up to its checkpoint")
         killed.begin(run_in(folder));
         show(killed, 10, 3.0);
         show(killed, 20, 2.75);
-        killed.flush();
+        killed.flush(20);
     }
     lab::MyPlugin output = writer();
     output.begin(run_in(folder, true, 10));

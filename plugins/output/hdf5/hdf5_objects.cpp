@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Texts, numbers, arrays and growing columns in HDF5.
+// Texts, numbers, arrays and links in HDF5.
 #include "hdf5_objects.hpp"
 
 #include <algorithm>
@@ -13,7 +13,6 @@ namespace {
 
 /// Rows of a chunk: large enough to compress well, small enough to read a part of a large snapshot.
 constexpr hsize_t array_chunk = 16384;
-constexpr hsize_t column_chunk = 1024;
 
 H5::StrType text_type()
 {
@@ -25,10 +24,7 @@ H5::StrType text_type()
 template <class Value>
 void write_number(const H5::H5Object& object, const std::string& name, const H5::PredType& type, const Value& value)
 {
-    if (object.attrExists(name))
-        object.openAttribute(name).write(type, &value);
-    else
-        object.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, &value);
+    object.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, &value);
 }
 
 template <class Value>
@@ -61,31 +57,13 @@ void write_values(const H5::Group& group, const std::string& name, const H5::Pre
     dataset.close(); // here and not in its destructor, which could not report a full disk
 }
 
-template <class Value>
-void append_values(const H5::Group& group, const std::string& name, const H5::PredType& type,
-                   std::span<const Value> values)
-{
-    if (values.empty())
-        return;
-    H5::DataSet dataset = group.openDataSet(name);
-    hsize_t start = 0;
-    dataset.getSpace().getSimpleExtentDims(&start);
-    const hsize_t count = values.size();
-    const hsize_t length = start + count;
-    dataset.extend(&length);
-    H5::DataSpace space = dataset.getSpace();
-    space.selectHyperslab(H5S_SELECT_SET, &count, &start);
-    dataset.write(values.data(), type, H5::DataSpace(1, &count), space);
-    dataset.close();
-}
-
 } // namespace
 
-H5::H5File open_unlocked(const std::filesystem::path& file, unsigned flags)
+H5::H5File open_unlocked(const std::filesystem::path& file)
 {
     H5::FileAccPropList access;
     H5Pset_file_locking(access.getId(), false, true);
-    return H5::H5File(file.string(), flags, H5::FileCreatPropList::DEFAULT, access);
+    return {file.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
 }
 
 void write_attribute(const H5::H5Object& object, const std::string& name, const std::string& text)
@@ -101,19 +79,6 @@ void write_attribute(const H5::H5Object& object, const std::string& name, std::i
 void write_attribute(const H5::H5Object& object, const std::string& name, double value)
 {
     write_number(object, name, H5::PredType::NATIVE_DOUBLE, value);
-}
-
-std::string read_text_attribute(const H5::H5Object& object, const std::string& name)
-{
-    std::string text;
-    const H5::Attribute attribute = object.openAttribute(name);
-    attribute.read(attribute.getStrType(), text);
-    return text;
-}
-
-std::int64_t read_integer_attribute(const H5::H5Object& object, const std::string& name)
-{
-    return read_number<std::int64_t>(object, name, H5::PredType::NATIVE_INT64);
 }
 
 double read_real_attribute(const H5::H5Object& object, const std::string& name)
@@ -138,38 +103,16 @@ void write_array(const H5::Group& group, const std::string& name, std::span<cons
     write_values(group, name, H5::PredType::NATIVE_INT64, values, components, unit, description, compression);
 }
 
-void create_column(const H5::Group& group, const std::string& name, const H5::PredType& type, const std::string& unit,
-                   const std::string& description)
+void link_to_file(const H5::Group& group, const std::string& name, const std::string& file, const std::string& object)
 {
-    const hsize_t empty = 0;
-    const hsize_t unlimited = H5S_UNLIMITED;
-    H5::DSetCreatPropList properties;
-    properties.setChunk(1, &column_chunk);
-    const H5::DataSet dataset = group.createDataSet(name, type, H5::DataSpace(1, &empty, &unlimited), properties);
-    write_attribute(dataset, "unit", unit);
-    write_attribute(dataset, "description", description);
+    if (H5Lcreate_external(file.c_str(), object.c_str(), group.getId(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+        throw H5::GroupIException("link_to_file", "cannot link " + name);
 }
 
-void append_to_column(const H5::Group& group, const std::string& name, std::span<const double> values)
+void copy_object(const H5::H5File& from, const std::string& object, const H5::Group& to, const std::string& name)
 {
-    append_values(group, name, H5::PredType::NATIVE_DOUBLE, values);
-}
-
-void append_to_column(const H5::Group& group, const std::string& name, std::span<const std::int64_t> values)
-{
-    append_values(group, name, H5::PredType::NATIVE_INT64, values);
-}
-
-hsize_t column_length(const H5::Group& group, const std::string& name)
-{
-    hsize_t length = 0;
-    group.openDataSet(name).getSpace().getSimpleExtentDims(&length);
-    return length;
-}
-
-void cut_column(const H5::Group& group, const std::string& name, hsize_t length)
-{
-    group.openDataSet(name).extend(&length);
+    if (H5Ocopy(from.getId(), object.c_str(), to.getId(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+        throw H5::GroupIException("copy_object", "cannot copy " + object);
 }
 
 } // namespace periporo::output

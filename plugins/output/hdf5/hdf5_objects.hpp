@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The few HDF5 objects a result file is made of: texts, numbers, arrays, and columns that grow.
+// The few HDF5 objects a result file is made of: texts, numbers, arrays, columns, and links to other files.
 #pragma once
 
 #include <H5Cpp.h>
@@ -11,7 +11,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 
 namespace periporo::output {
 
@@ -28,15 +27,13 @@ auto guarded(const std::string& what, const std::filesystem::path& file, Action&
     }
 }
 
-/// Opens a file without locking it: somebody who looks at a running computation must not stop it.
-H5::H5File open_unlocked(const std::filesystem::path& file, unsigned flags);
+/// Opens a file for reading without locking it: a run must not stop another that looks at its results.
+H5::H5File open_unlocked(const std::filesystem::path& file);
 
 void write_attribute(const H5::H5Object& object, const std::string& name, const std::string& text);
 void write_attribute(const H5::H5Object& object, const std::string& name, std::int64_t value);
 void write_attribute(const H5::H5Object& object, const std::string& name, double value);
 
-std::string read_text_attribute(const H5::H5Object& object, const std::string& name);
-std::int64_t read_integer_attribute(const H5::H5Object& object, const std::string& name);
 double read_real_attribute(const H5::H5Object& object, const std::string& name);
 
 /// A scalar text of any length in UTF-8.
@@ -50,12 +47,11 @@ void write_array(const H5::Group& group, const std::string& name, std::span<cons
 void write_array(const H5::Group& group, const std::string& name, std::span<const std::int64_t> values,
                  std::size_t components, const std::string& unit, const std::string& description, int compression);
 
-/// An empty column of reals or integers that grows at its end.
-void create_column(const H5::Group& group, const std::string& name, const H5::PredType& type, const std::string& unit,
-                   const std::string& description);
-void append_to_column(const H5::Group& group, const std::string& name, std::span<const double> values);
-void append_to_column(const H5::Group& group, const std::string& name, std::span<const std::int64_t> values);
-hsize_t column_length(const H5::Group& group, const std::string& name);
-void cut_column(const H5::Group& group, const std::string& name, hsize_t length);
+/// Makes `name` in a group stand for `object` in another file.
+/// @param file relative to the folder of the file that has the link
+void link_to_file(const H5::Group& group, const std::string& name, const std::string& file, const std::string& object);
+
+/// Copies `object` of a file with everything in it, as it is stored.
+void copy_object(const H5::H5File& from, const std::string& object, const H5::Group& to, const std::string& name);
 
 } // namespace periporo::output

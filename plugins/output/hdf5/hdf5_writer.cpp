@@ -3,10 +3,7 @@
 //
 // Output plugin "hdf5": snapshots, history and provenance in `results.h5` (layout: results_file.hpp), and
 // `results.xdmf` beside it.
-#include "results_file.hpp"
-#include "xdmf.hpp"
-
-#include "common/part_file.hpp"
+#include "results_parts.hpp"
 
 #include "periporo/output.hpp"
 
@@ -14,16 +11,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
 namespace periporo::output {
 
 namespace {
-
-/// Rows of the history kept in memory at most.
-constexpr std::size_t rows_between_writes = 256;
 
 class Hdf5Writer : public OutputWriter {
 public:
@@ -45,62 +38,40 @@ public:
             chosen_fields_ = parameters.text_list("fields");
     }
 
-    ~Hdf5Writer() override
-    {
-        try {
-            write_history();              // the rows of a run that ended by an error
-        } catch (const std::exception&) { // a destructor has nobody to tell
-        }
-    }
+    std::vector<std::string> files() const override { return {results_name, xdmf_name, parts_name}; }
 
     void begin(const RunDescription& run) override
     {
-        file_ = run.directory / "results.h5";
-        part_ = part_of(file_);
-        xdmf_ = run.directory / "results.xdmf";
         columns_ = run.history.size();
-        if (run.resumed) {
-            if (const std::filesystem::path earlier = earlier_output(file_); earlier != part_)
-                std::filesystem::rename(earlier, part_);
-            results_ = ResultsFile::resume(part_, run, compression_);
-        } else {
-            require_writable(part_);
-            results_ = ResultsFile::create(part_, run, compression_);
-        }
+        results_ = run.resumed ? ResultsParts::resume(run, compression_) : ResultsParts::create(run, compression_);
     }
 
-    void snapshot(const Snapshot& snapshot) override
-    {
-        write_history();
-        results_.value().append(snapshot, selected(snapshot));
-        write_xdmf(part_);
-    }
+    void snapshot(const Snapshot& snapshot) override { results_.value().add(snapshot, selected(snapshot)); }
 
     void history(std::uint64_t step, std::span<const double> values) override
     {
         if (values.size() != columns_)
             throw std::logic_error(
-                fmt::format("{}: a row of {} values for {} columns", part_.string(), values.size(), columns_));
-        rows_.steps.push_back(static_cast<std::int64_t>(step));
-        rows_.values.insert(rows_.values.end(), values.begin(), values.end());
-        if (rows_.steps.size() >= rows_between_writes)
-            write_history();
+                fmt::format("{}: a row of {} values for {} columns", results_name, values.size(), columns_));
+        results_.value().add(step, values);
     }
 
-    void flush() override
-    {
-        write_history();
-        synchronize(part_);
-    }
+    void flush(std::uint64_t step) override { results_.value().flush(step); }
 
     void finish(bool complete) override
     {
         if (!results_)
             return;
-        write_history();
-        results_->set_complete(complete);
-        publish(part_, file_);
-        write_xdmf(file_);
+        if (complete)
+            results_->merge();
+        else
+            results_->show();
+    }
+
+    void clean_up() override
+    {
+        if (results_)
+            results_->clean_up();
         results_.reset();
     }
 
@@ -118,43 +89,18 @@ private:
                 std::vector<std::string> names;
                 for (const FieldView& known : snapshot.fields)
                     names.push_back(known.name);
-                throw std::runtime_error(
-                    fmt::format("output \"hdf5\" for {}: there is no field \"{}\"; the fields are {}", file_.string(),
-                                name, fmt::join(names, ", ")));
+                throw std::runtime_error(fmt::format("output \"hdf5\": there is no field \"{}\"; the fields are {}",
+                                                     name, fmt::join(names, ", ")));
             }
             fields.push_back(*field);
         }
         return fields;
     }
 
-    void write_history()
-    {
-        if (!results_ || rows_.steps.empty())
-            return;
-        results_->append(rows_);
-        rows_ = {};
-    }
-
-    void write_xdmf(const std::filesystem::path& data_file) const
-    {
-        const std::filesystem::path part = part_of(xdmf_);
-        require_writable(part);
-        std::ofstream stream(part, std::ios::binary | std::ios::trunc);
-        stream << xdmf_text(results_->snapshots(), data_file.filename().string());
-        stream.close();
-        if (!stream)
-            throw_file_error("cannot write", part, EIO);
-        std::filesystem::rename(part, xdmf_);
-    }
-
     int compression_;
     std::optional<std::vector<std::string>> chosen_fields_;
-    std::filesystem::path file_;
-    std::filesystem::path part_;
-    std::filesystem::path xdmf_;
     std::size_t columns_ = 0;
-    std::optional<ResultsFile> results_; ///< between begin and finish
-    HistoryRows rows_;
+    std::optional<ResultsParts> results_; ///< from begin on
 };
 
 } // namespace

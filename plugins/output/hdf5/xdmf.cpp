@@ -69,17 +69,17 @@ std::string grid(const std::string& data_file, const StoredSnapshot& snapshot)
           {4}
         </Geometry>
 )",
-        snapshot.group.substr(snapshot.group.rfind('/') + 1), snapshot.time, snapshot.points,
+        snapshot.name(), snapshot.time, snapshot.points,
         data_item(data_file, vertex_list(snapshot.points), true, snapshot.points, 1),
-        data_item(data_file, snapshot.group + "/position", false, snapshot.points, 3));
+        data_item(data_file, "/snapshots/" + snapshot.name() + "/position", false, snapshot.points, 3));
     for (const StoredField& field : snapshot.fields)
-        fmt::format_to(
-            std::back_inserter(text), R"(        <Attribute Name="{}" AttributeType="{}" Center="Node">
+        fmt::format_to(std::back_inserter(text), R"(        <Attribute Name="{}" AttributeType="{}" Center="Node">
           {}
         </Attribute>
 )",
-            escaped(field.name), attribute_type(field.components),
-            data_item(data_file, snapshot.group + "/" + field.name, field.integers, snapshot.points, field.components));
+                       escaped(field.name), attribute_type(field.components),
+                       data_item(data_file, "/snapshots/" + snapshot.name() + "/" + field.name, field.integers,
+                                 snapshot.points, field.components));
     return text + "      </Grid>\n";
 }
 

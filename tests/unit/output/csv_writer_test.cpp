@@ -29,6 +29,30 @@ std::string content(const std::filesystem::path& file)
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// What a run leaves that is stopped at a step.
+void stop_at(const std::filesystem::path& folder, std::uint64_t step)
+{
+    const auto writer = test::output("csv");
+    writer->begin(test::made_up_run(folder));
+    test::give_steps(*writer, 0, step);
+    writer->flush(step);
+    writer->finish(false);
+}
+
+/// Resumes at a step and runs to step 60; @return what the writer says aloud.
+std::string finish_from(const std::filesystem::path& folder, std::uint64_t step)
+{
+    std::string said;
+    RunDescription run = test::resumed_run(folder, step);
+    run.warn = [&](const std::string& warning) { said += warning + '\n'; };
+    const auto writer = test::output("csv");
+    writer->begin(run);
+    test::give_steps(*writer, step + 1, 60);
+    writer->finish(true);
+    writer->clean_up();
+    return said;
+}
+
 std::string whole_run(std::uint64_t last_step)
 {
     const TemporaryFolder folder;
@@ -87,78 +111,103 @@ TEST_CASE("a name with a comma or a quote is one cell")
     CHECK(content(folder / "history.csv") == "step,\"height, \"\"front\"\" [m]\"\n");
 }
 
-TEST_CASE("the file has its name only when it is finished")
+TEST_CASE("every row is in the file as soon as it is given, and a complete run leaves the file alone")
 {
     const TemporaryFolder folder;
     const auto writer = test::output("csv");
     writer->begin(test::made_up_run(folder.path()));
-    test::give_steps(*writer, 0, 5);
-    CHECK(std::filesystem::exists(folder / "history.csv.part"));
-    CHECK_FALSE(std::filesystem::exists(folder / "history.csv"));
-    writer->finish(false);
-    CHECK_FALSE(std::filesystem::exists(folder / "history.csv.part"));
-    CHECK(content(folder / "history.csv") == whole_run(5));
-}
-
-TEST_CASE("after a flush every row given so far is in the file")
-{
-    const TemporaryFolder folder;
-    const auto writer = test::output("csv");
-    writer->begin(test::made_up_run(folder.path()));
-    test::give_steps(*writer, 0, 20); // no whole number of the writer's own flushes
-    writer->flush();
-    CHECK(content(folder / "history.csv.part") == whole_run(20));
-    writer->finish(false);
+    for (std::uint64_t step = 0; step < 20; ++step) {
+        test::give_steps(*writer, step, step);
+        CHECK(content(folder / "history.csv") == whole_run(step));
+    }
+    writer->finish(true);
+    writer->clean_up();
+    CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
 }
 
 TEST_CASE("a run that was stopped and resumed leaves the same bytes as one that never stopped")
 {
     const TemporaryFolder folder;
-    const auto first = test::output("csv");
-    first->begin(test::made_up_run(folder.path()));
-    test::give_steps(*first, 0, 40);
-    first->finish(false);
-    const auto second = test::output("csv");
-    second->begin(test::resumed_run(folder.path(), 40));
-    test::give_steps(*second, 41, 60);
-    second->finish(true);
+    stop_at(folder.path(), 40);
+    CHECK(finish_from(folder.path(), 40).empty());
     CHECK(content(folder / "history.csv") == whole_run(60));
 }
 
-TEST_CASE("after a kill in the middle of a row the run goes on from its checkpoint with the same bytes")
+TEST_CASE("a run that is resumed at a step whose row is there writes it once")
 {
     const TemporaryFolder folder;
-    // What a kill leaves: rows after the checkpoint of step 33, the last one cut.
-    const std::string rows = whole_run(47);
-    std::ofstream(folder / "history.csv.part", std::ios::binary) << rows.substr(0, rows.size() - 9);
+    stop_at(folder.path(), 40);
     const auto writer = test::output("csv");
-    writer->begin(test::resumed_run(folder.path(), 33));
-    test::give_steps(*writer, 34, 60);
+    writer->begin(test::resumed_run(folder.path(), 40));
+    test::give_steps(*writer, 40, 60);
     writer->finish(true);
     CHECK(content(folder / "history.csv") == whole_run(60));
 }
 
-TEST_CASE("the part of a killed run goes before the file of an earlier one")
+TEST_CASE(
+    "after a kill in the middle of a row the run goes on from its checkpoint with the same bytes, and says nothing")
 {
     const TemporaryFolder folder;
-    std::ofstream(folder / "history.csv") << "of an earlier run\n";
-    std::ofstream(folder / "history.csv.part") << whole_run(30);
-    const auto writer = test::output("csv");
-    writer->begin(test::resumed_run(folder.path(), 30));
-    test::give_steps(*writer, 31, 60);
-    writer->finish(true);
+    {
+        const auto killed = test::output("csv");
+        killed->begin(test::made_up_run(folder.path()));
+        test::give_steps(*killed, 0, 33);
+        killed->flush(33);
+        test::give_steps(*killed, 34, 47);
+    }
+    std::filesystem::resize_file(folder / "history.csv", std::filesystem::file_size(folder / "history.csv") - 9);
+    CHECK(finish_from(folder.path(), 33).empty());
     CHECK(content(folder / "history.csv") == whole_run(60));
 }
 
-TEST_CASE("a run cannot be resumed without its file, or with other columns")
+TEST_CASE("a row that is damaged is noticed by its checksum; the sound ones stay and the damaged file is kept")
 {
     const TemporaryFolder folder;
-    const auto writer = test::output("csv");
-    test::check_mentions(test::message_of_error([&] { writer->begin(test::resumed_run(folder.path(), 1)); }),
-                         {"cannot resume", (folder / "history.csv").string()});
+    stop_at(folder.path(), 33);
+    const std::string sound = content(folder / "history.csv");
+    const std::size_t at = sound.find("\n20,") + 4; // the time of step 20, one digit of it
+    std::string damaged = sound;
+    damaged[at] = damaged[at] == '1' ? '2' : '1';
+    std::ofstream(folder / "history.csv", std::ios::binary) << damaged;
+    test::check_mentions(finish_from(folder.path(), 33),
+                         {(folder / "history.csv").string(), "33 rows are sound", "1 are lost", "history.csv.damaged"});
+    CHECK(content(folder / "history.csv.damaged") == damaged);
+    std::string expected = whole_run(60);
+    const std::size_t row = expected.find("\n20,") + 1;
+    expected.erase(row, expected.find('\n', row) + 1 - row);
+    CHECK(content(folder / "history.csv") == expected);
+}
+
+TEST_CASE("rows that are missing at the end, or the whole file, are said, and the run goes on")
+{
+    const TemporaryFolder cut;
+    stop_at(cut.path(), 33);
+    const std::string rows = content(cut / "history.csv");
+    std::ofstream(cut / "history.csv", std::ios::binary) << rows.substr(0, rows.find("\n30,") + 1);
+    test::check_mentions(finish_from(cut.path(), 33), {"30 rows are sound", "4 are lost"});
+    const TemporaryFolder empty;
+    stop_at(empty.path(), 33);
+    std::filesystem::remove(empty / "history.csv");
+    test::check_mentions(finish_from(empty.path(), 33), {"0 rows are sound", "34 are lost"});
+    CHECK(content(empty / "history.csv").starts_with("step,time [s],kinetic_energy [J],free_grains [-]\n34,"));
+}
+
+TEST_CASE("without the checksums rows are kept by their form, and this is said")
+{
+    const TemporaryFolder folder;
+    stop_at(folder.path(), 33);
+    std::filesystem::remove(folder / "history.csv.journal");
+    test::check_mentions(finish_from(folder.path(), 33), {"34 rows are sound", "history.csv.journal is damaged"});
+    CHECK(content(folder / "history.csv") == whole_run(60));
+}
+
+TEST_CASE("a file with other columns is kept under another name")
+{
+    const TemporaryFolder folder;
+    stop_at(folder.path(), 33);
     std::ofstream(folder / "history.csv") << "step,time [s]\n0,0\n";
-    test::check_mentions(test::message_of_error([&] { writer->begin(test::resumed_run(folder.path(), 1)); }),
-                         {"cannot resume", (folder / "history.csv").string(), "step,time [s]", "kinetic_energy [J]"});
+    test::check_mentions(finish_from(folder.path(), 33), {"history.csv.damaged"});
+    CHECK(content(folder / "history.csv.damaged") == "step,time [s]\n0,0\n");
 }
 
 TEST_CASE("a directory that cannot be written is an error with the path and the reason")

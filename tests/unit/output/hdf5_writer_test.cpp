@@ -15,11 +15,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace {
@@ -95,6 +99,41 @@ std::string text_dataset(const H5::H5File& file, const std::string& name)
     const H5::DataSet dataset = file.openDataSet(name);
     dataset.read(value, dataset.getStrType());
     return value;
+}
+
+/// What a run leaves that is stopped at a step.
+void stop_at(const std::filesystem::path& folder, std::uint64_t step)
+{
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(folder));
+    test::give_steps(*writer, 0, step);
+    writer->flush(step);
+    writer->finish(false);
+}
+
+/// Resumes at a step and runs to the end; @return what the writer says aloud.
+std::string finish_from(const std::filesystem::path& folder, std::uint64_t step, std::uint64_t last_step)
+{
+    std::string said;
+    RunDescription run = test::resumed_run(folder, step);
+    run.warn = [&](const std::string& warning) { said += warning + '\n'; };
+    const auto writer = test::output("hdf5");
+    writer->begin(run);
+    test::give_steps(*writer, step + 1, last_step);
+    writer->finish(true);
+    writer->clean_up();
+    return said;
+}
+
+/// Flips a bit of the byte at a part of the length.
+void flip_bit(const std::filesystem::path& file, double place)
+{
+    std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+    const auto at = static_cast<std::streamoff>(place * static_cast<double>(std::filesystem::file_size(file)));
+    stream.seekg(at);
+    const char byte = static_cast<char>(stream.get() ^ 0x10);
+    stream.seekp(at);
+    stream.put(byte);
 }
 
 /// The text between the quotes of `key="..."`.
@@ -189,61 +228,90 @@ TEST_CASE("the history comes back bit by bit, column by column, however many row
     CHECK(text(file.openDataSet("/history/kinetic_energy"), "description") == "Kinetic energy of all points");
 }
 
-TEST_CASE("while running the part is readable after every snapshot, and only finishing gives the file its name")
+TEST_CASE("while a run goes on results.h5 opens at every moment, and shows all snapshots and rows after a flush")
 {
     const TemporaryFolder folder;
     const auto writer = test::output("hdf5");
     writer->begin(test::made_up_run(folder.path()));
     for (std::uint64_t snapshots = 1; snapshots <= 3; ++snapshots) {
         test::give_steps(*writer, 10 * (snapshots - 1) + 1, 10 * snapshots);
-        const H5::H5File file((folder / "results.h5.part").string(), H5F_ACC_RDONLY);
+        CHECK_NOTHROW(content_of(folder / "results.h5"));
+        writer->flush(10 * snapshots);
+        const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
         CHECK(file.openGroup("/snapshots").getNumObjs() == snapshots);
         CHECK(integers(file, "/history/step").back() == static_cast<std::int64_t>(10 * snapshots));
         CHECK(number<std::int64_t>(file, "complete", H5::PredType::NATIVE_INT64) == 0);
+        const std::size_t n = test::made_up_points;
+        const std::string last = fmt::format("/snapshots/{:06}/position", snapshots - 1);
+        CHECK(reals(file, last) == test::made_up_values(10 * snapshots, 3 * n, 100));
     }
-    CHECK_FALSE(std::filesystem::exists(folder / "results.h5"));
     writer->finish(false);
-    CHECK_FALSE(std::filesystem::exists(folder / "results.h5.part"));
     const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
     CHECK(number<std::int64_t>(file, "complete", H5::PredType::NATIVE_INT64) == 0);
+    CHECK(text(file, "parts").find("results.parts") != std::string::npos);
 }
 
-TEST_CASE("after a flush every row given so far is in the file")
+TEST_CASE("a complete run leaves one file that holds everything, and no parts")
+{
+    const TemporaryFolder folder;
+    const TemporaryFolder elsewhere;
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 20);
+    CHECK_FALSE(std::filesystem::exists(folder / "results.parts"));
+    std::filesystem::copy(folder / "results.h5", elsewhere / "results.h5");
+    check_same(content_of(elsewhere / "results.h5"), content_of(folder / "results.h5"));
+    CHECK_FALSE(H5::H5File((elsewhere / "results.h5").string(), H5F_ACC_RDONLY).attrExists("parts"));
+}
+
+TEST_CASE("somebody who has the result file open and locked does not stop the run, and keeps what was opened")
 {
     const TemporaryFolder folder;
     const auto writer = test::output("hdf5");
     writer->begin(test::made_up_run(folder.path()));
-    test::give_steps(*writer, 1, 4); // no snapshot among them
-    writer->flush();
-    const H5::H5File file((folder / "results.h5.part").string(), H5F_ACC_RDONLY);
-    CHECK(integers(file, "/history/step") == std::vector<std::int64_t>{1, 2, 3, 4});
-}
-
-TEST_CASE("somebody who has locked the part while looking at it does not stop the run")
-{
-    const TemporaryFolder folder;
-    const auto writer = test::output("hdf5");
-    writer->begin(test::made_up_run(folder.path()));
-    const int descriptor = ::open((folder / "results.h5.part").c_str(), O_RDONLY);
+    test::give_steps(*writer, 0, 10);
+    writer->flush(10);
+    const int descriptor = ::open((folder / "results.h5").c_str(), O_RDONLY);
     REQUIRE(::flock(descriptor, LOCK_SH | LOCK_NB) == 0);
-    CHECK_NOTHROW(test::give_steps(*writer, 0, 10));
+    const H5::H5File open((folder / "results.h5").string(), H5F_ACC_RDONLY);
+    CHECK_NOTHROW(test::give_steps(*writer, 11, 30));
+    CHECK_NOTHROW(writer->flush(30));
+    CHECK(integers(open, "/history/step").size() == 11);
+    CHECK(reals(open, "/snapshots/000001/position").size() == 3 * test::made_up_points);
     ::close(descriptor);
-    writer->finish(true);
+    CHECK_NOTHROW(writer->finish(true));
+}
+
+TEST_CASE("result file and XDMF are not written anew at each snapshot when they are larger than the snapshots")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(folder.path()));
+    std::set<ino_t> files; // each writing aside makes another file
+    std::uintmax_t written = 0;
+    for (std::uint64_t step = 0; step < 600; ++step) {
+        test::give_snapshot(*writer, step, 1);
+        struct stat state;
+        REQUIRE(::stat((folder / "results.h5").c_str(), &state) == 0);
+        if (files.insert(state.st_ino).second) {
+            files = {state.st_ino};
+            written +=
+                std::filesystem::file_size(folder / "results.h5") + std::filesystem::file_size(folder / "results.xdmf");
+        }
+    }
+    std::uintmax_t parts = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "results.parts"))
+        parts += entry.file_size();
+    // They are written when as many bytes of snapshots wait: a last writing that no snapshots stand against is allowed.
+    CHECK(written < parts + std::filesystem::file_size(folder / "results.xdmf") + 200000);
+    CHECK(written > 0);
 }
 
 TEST_CASE("a run that was stopped and resumed leaves the same file as one that never stopped")
 {
     const TemporaryFolder folder;
-    const auto first = test::output("hdf5");
-    first->begin(test::made_up_run(folder.path()));
-    test::give_steps(*first, 0, 40);
-    first->finish(false);
-    const auto second = test::output("hdf5");
-    second->begin(test::resumed_run(folder.path(), 40));
-    test::give_steps(*second, 41, 60);
-    second->finish(true);
+    stop_at(folder.path(), 40);
+    finish_from(folder.path(), 40, 60);
     check_same(content_of(folder / "results.h5"), whole_run(60));
-    CHECK_FALSE(std::filesystem::exists(folder / "results.h5.part"));
+    CHECK_FALSE(std::filesystem::exists(folder / "results.parts"));
 }
 
 TEST_CASE("after a kill the run goes on from its checkpoint and leaves the same file")
@@ -253,15 +321,23 @@ TEST_CASE("after a kill the run goes on from its checkpoint and leaves the same 
     const auto first = test::output("hdf5");
     first->begin(test::made_up_run(running.path()));
     test::give_steps(*first, 0, 33);
-    first->flush(); // the checkpoint of step 33
+    first->flush(33);
     test::give_steps(*first, 34, 57);
     // The files as a kill at this moment would leave them, with snapshots and rows after the checkpoint.
-    std::filesystem::copy(running / "results.h5.part", killed / "results.h5.part");
-    const auto second = test::output("hdf5");
-    second->begin(test::resumed_run(killed.path(), 33));
-    test::give_steps(*second, 34, 60);
-    second->finish(true);
+    std::filesystem::copy(running.path(), killed.path(), std::filesystem::copy_options::recursive);
+    CHECK(finish_from(killed.path(), 33, 60).empty());
     check_same(content_of(killed / "results.h5"), whole_run(60));
+}
+
+TEST_CASE("a run that is resumed at a step whose snapshot and row are stored stores them once")
+{
+    const TemporaryFolder folder;
+    stop_at(folder.path(), 40);
+    const auto second = test::output("hdf5");
+    second->begin(test::resumed_run(folder.path(), 40));
+    test::give_steps(*second, 40, 60);
+    second->finish(true);
+    check_same(content_of(folder / "results.h5"), whole_run(60));
 }
 
 TEST_CASE("the XDMF of a resumed run is that of one that never stopped")
@@ -269,35 +345,125 @@ TEST_CASE("the XDMF of a resumed run is that of one that never stopped")
     const TemporaryFolder whole;
     test::write_whole_run(*test::output("hdf5"), whole.path(), 40);
     const TemporaryFolder folder;
-    const auto first = test::output("hdf5");
-    first->begin(test::made_up_run(folder.path()));
-    test::give_steps(*first, 0, 20);
-    first->finish(false);
-    const auto second = test::output("hdf5");
-    second->begin(test::resumed_run(folder.path(), 20));
-    test::give_steps(*second, 21, 40);
-    second->finish(true);
+    stop_at(folder.path(), 20);
+    finish_from(folder.path(), 20, 40);
     CHECK(file_text(folder / "results.xdmf") == file_text(whole / "results.xdmf"));
 }
 
-TEST_CASE("a run cannot be resumed without its file, from a file of another kind, or with other columns")
+TEST_CASE("a bit that flips in a part is noticed wherever it is, and the part is set aside, named, and left out")
+{
+    const auto expected = whole_run(60);
+    for (const double place : {0.0, 0.3, 0.5, 0.8, 0.999}) {
+        CAPTURE(place);
+        const TemporaryFolder folder;
+        stop_at(folder.path(), 45);
+        flip_bit(folder / "results.parts/000002-20.h5", place);
+        const std::string said = finish_from(folder.path(), 45, 60);
+        test::check_mentions(said, {"snapshot 000002 of step 20", "000002-20.h5.damaged"});
+        auto found = content_of(folder / "results.h5");
+        CHECK(found.at("/@missing").find("snapshot 000002 of step 20") != std::string::npos);
+        CHECK(std::filesystem::exists(folder / "results.parts/000002-20.h5.damaged"));
+        CHECK_FALSE(found.contains("/snapshots/000002/"));
+        found.erase("/@missing");
+        auto without = expected;
+        std::erase_if(without, [](const auto& entry) { return entry.first.starts_with("/snapshots/000002"); });
+        check_same(found, without);
+    }
+}
+
+TEST_CASE("a part that is cut or missing is named, and the others go on")
 {
     const TemporaryFolder folder;
-    const auto writer = test::output("hdf5");
-    test::check_mentions(test::message_of_error([&] { writer->begin(test::resumed_run(folder.path(), 1)); }),
-                         {"cannot resume", (folder / "results.h5").string()});
-    std::ofstream(folder / "results.h5.part") << "no HDF5";
-    test::check_mentions(test::message_of_error([&] { writer->begin(test::resumed_run(folder.path(), 1)); }),
-                         {"cannot resume", (folder / "results.h5.part").string()});
-    std::filesystem::remove(folder / "results.h5.part");
-    H5::H5File((folder / "results.h5").string(), H5F_ACC_TRUNC).close();
-    test::check_mentions(test::message_of_error([&] { writer->begin(test::resumed_run(folder.path(), 1)); }),
-                         {"cannot resume", "no result file of format version 1"});
-    test::write_whole_run(*test::output("hdf5"), folder.path(), 10);
-    RunDescription run = test::resumed_run(folder.path(), 10);
-    run.history.pop_back();
-    test::check_mentions(test::message_of_error([&] { writer->begin(run); }),
-                         {"cannot resume", "its history is free_grains, kinetic_energy, step, time"});
+    stop_at(folder.path(), 45);
+    std::filesystem::resize_file(folder / "results.parts/000001-10.h5", 1000);
+    std::filesystem::remove(folder / "results.parts/000004-40.h5"); // the last one
+    std::ofstream(folder / "results.parts/000003-30.h5", std::ios::trunc).close();
+    const std::string said = finish_from(folder.path(), 45, 60);
+    test::check_mentions(said,
+                         {"snapshot 000001 of step 10", "snapshot 000003 of step 30", "snapshot 000004 of step 40"});
+    const auto found = content_of(folder / "results.h5");
+    for (const char* kept : {"/snapshots/000000/", "/snapshots/000002/", "/snapshots/000005/", "/snapshots/000006/"})
+        CHECK(found.contains(kept));
+    CHECK(found.at("/history/step") == whole_run(60).at("/history/step"));
+}
+
+TEST_CASE("rows of a damaged journal are lost one by one, and never read as numbers")
+{
+    const auto expected = whole_run(60);
+    for (const double place : {0.2, 0.5, 0.9}) {
+        CAPTURE(place);
+        const TemporaryFolder folder;
+        stop_at(folder.path(), 45);
+        flip_bit(folder / "results.parts/journal", place);
+        test::check_mentions(finish_from(folder.path(), 45, 60), {"rows of the history between steps"});
+        CHECK(std::filesystem::exists(folder / "results.parts/journal.damaged"));
+        const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+        const std::vector<std::int64_t> steps = integers(file, "/history/step");
+        const std::vector<double> energy = reals(file, "/history/kinetic_energy");
+        CHECK(steps.size() >= 60); // of 61, when it is a row that was hit
+        CHECK(std::is_sorted(steps.begin(), steps.end()));
+        for (std::size_t r = 0; r < steps.size(); ++r)
+            CHECK(energy[r] == test::made_up_value(static_cast<std::uint64_t>(steps[r]), 0));
+    }
+}
+
+TEST_CASE("a journal that ends before the checkpoint is said to lack rows, and one of zeros has none")
+{
+    for (const bool zeros : {false, true}) {
+        const TemporaryFolder folder;
+        stop_at(folder.path(), 45);
+        const auto journal = folder / "results.parts/journal";
+        const auto size = std::filesystem::file_size(journal);
+        std::filesystem::resize_file(journal, size / 2);
+        if (zeros) // as a file system leaves them after a power cut
+            std::filesystem::resize_file(journal, size);
+        test::check_mentions(finish_from(folder.path(), 45, 60), {"rows of the history between steps", "and 45"});
+        const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+        const std::vector<std::int64_t> steps = integers(file, "/history/step");
+        CHECK(steps.size() < 61);
+        CHECK(std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) == steps.end());
+        CHECK(text(file, "missing").find("and 45") != std::string::npos);
+    }
+}
+
+TEST_CASE("a loss is said again by every resume, and in the file at the end")
+{
+    const TemporaryFolder folder;
+    stop_at(folder.path(), 45);
+    flip_bit(folder / "results.parts/journal", 0.5);
+    flip_bit(folder / "results.parts/000002-20.h5", 0.5);
+    const auto second = test::output("hdf5");
+    second->begin(test::resumed_run(folder.path(), 45));
+    test::give_steps(*second, 46, 50);
+    second->flush(50);
+    second->finish(false);
+    test::check_mentions(finish_from(folder.path(), 50, 60), {"snapshot 000002 of step 20", "rows of the history"});
+    CHECK_FALSE(std::filesystem::exists(folder / "results.parts/journal.damaged.2"));
+}
+
+TEST_CASE("whatever the files are, a checkpoint resumes: without its parts, with a result file that is none")
+{
+    const TemporaryFolder folder;
+    stop_at(folder.path(), 45);
+    std::ofstream(folder / "results.h5", std::ios::trunc) << "no HDF5";
+    CHECK(finish_from(folder.path(), 45, 60).empty()); // the parts have it all
+    check_same(content_of(folder / "results.h5"), whole_run(60));
+    const TemporaryFolder without;
+    stop_at(without.path(), 45);
+    std::filesystem::remove_all(without / "results.parts");
+    test::check_mentions(finish_from(without.path(), 45, 60), {"results.parts is not there", "results.h5.damaged"});
+    CHECK(content_of(without / "results.h5").contains("/snapshots/000000/"));
+}
+
+TEST_CASE("a link in place of the folder of parts is not followed")
+{
+    const TemporaryFolder folder;
+    const TemporaryFolder elsewhere;
+    std::ofstream(elsewhere / "000000-0.h5") << "of somebody else";
+    std::filesystem::create_directory_symlink(elsewhere.path(), folder / "results.parts");
+    test::write_whole_run(*test::output("hdf5"), folder.path(), 20);
+    CHECK(file_text(elsewhere / "000000-0.h5") == "of somebody else");
+    check_same(content_of(folder / "results.h5"), whole_run(20));
 }
 
 TEST_CASE("only the fields asked for are stored, positions always")
@@ -354,29 +520,18 @@ TEST_CASE("a snapshot without points is stored as such")
     CHECK(extent(file, "/snapshots/000000/position") == std::vector<hsize_t>{0, 3});
 }
 
-TEST_CASE("a new run leaves an earlier result alone until it is finished")
-{
-    const TemporaryFolder folder;
-    test::write_whole_run(*test::output("hdf5"), folder.path(), 30);
-    const auto earlier = content_of(folder / "results.h5");
-    const auto writer = test::output("hdf5");
-    writer->begin(test::made_up_run(folder.path()));
-    test::give_steps(*writer, 0, 10);
-    check_same(content_of(folder / "results.h5"), earlier);
-    writer->finish(true);
-    check_same(content_of(folder / "results.h5"), whole_run(10));
-}
-
-TEST_CASE("a run that ends by an error leaves the rows given so far")
+TEST_CASE("rows of a run that ends by an error are there for the run that is resumed")
 {
     const TemporaryFolder folder;
     {
         const auto writer = test::output("hdf5");
         writer->begin(test::made_up_run(folder.path()));
-        test::give_steps(*writer, 1, 5);
+        test::give_steps(*writer, 0, 33);
+        writer->flush(33);
+        test::give_steps(*writer, 34, 39);
     }
-    const H5::H5File file((folder / "results.h5.part").string(), H5F_ACC_RDONLY);
-    CHECK(integers(file, "/history/step") == std::vector<std::int64_t>{1, 2, 3, 4, 5});
+    finish_from(folder.path(), 33, 60);
+    check_same(content_of(folder / "results.h5"), whole_run(60));
 }
 
 TEST_CASE("a directory that cannot be written is an error with the path and the reason")
@@ -385,7 +540,7 @@ TEST_CASE("a directory that cannot be written is an error with the path and the 
     std::ofstream(folder / "file") << "not a directory";
     const auto writer = test::output("hdf5");
     test::check_mentions(test::message_of_error([&] { writer->begin(test::made_up_run(folder / "file")); }),
-                         {(folder / "file" / "results.h5").string(), "Not a directory"});
+                         {(folder / "file" / "results.parts").string(), "Not a directory"});
 }
 
 TEST_CASE("every dataset that the XDMF names is in the result file, with the size and the type it says")

@@ -103,6 +103,7 @@ inline void write_whole_run(OutputWriter& writer, const std::filesystem::path& d
     writer.begin(made_up_run(directory));
     give_steps(writer, 0, last_step);
     writer.finish(true);
+    writer.clean_up();
 }
 
 } // namespace periporo::test

@@ -1,0 +1,245 @@
+// Copyright 2026 The periporo authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Storing parts, showing them, finding them again and merging them.
+#include "results_parts.hpp"
+
+#include "xdmf.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace periporo::output {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_losses_told = 6; ///< on the terminal; the result file names all
+
+/// A journal of other columns is of another run.
+std::string meaning_of_rows(const RunDescription& run)
+{
+    std::string names;
+    for (const HistoryColumn& column : run.history)
+        names += column.name + '\n';
+    return names;
+}
+
+std::size_t values_of_record(const RunDescription& run)
+{
+    return std::max<std::size_t>(run.history.size(), 1);
+}
+
+std::vector<std::string> names_in(const fs::path& folder)
+{
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool is_of_parts(const std::string& name)
+{
+    return number_and_step(name) || name == "journal" || (name.starts_with("vertices-") && name.ends_with(".h5"));
+}
+
+/// Makes the folder of the parts. Something else of this name, a link to another folder too, gets another name.
+void provide_folder(const fs::path& folder, const RunDescription& run)
+{
+    const fs::file_status status = fs::symlink_status(folder);
+    if (fs::exists(status) && !fs::is_directory(status))
+        run.warn(fmt::format("{} is no folder of results; it is kept as {}", folder.string(),
+                             set_aside(folder).filename().string()));
+    std::error_code error;
+    fs::create_directory(folder, error);
+    if (error)
+        throw FileError("cannot make the folder", folder, error.value());
+}
+
+} // namespace
+
+ResultsParts::ResultsParts(const RunDescription& run, int compression)
+    : run_(run), compression_(compression), file_(run.directory / results_name), parts_(run.directory / parts_name)
+{
+}
+
+ResultsParts ResultsParts::create(const RunDescription& run, int compression)
+{
+    ResultsParts results(run, compression);
+    provide_folder(results.parts_, run);
+    results.remove_parts(true);
+    results.journal_ = Journal::create(results.parts_ / "journal", values_of_record(run), meaning_of_rows(run));
+    results.show();
+    return results;
+}
+
+ResultsParts ResultsParts::resume(const RunDescription& run, int compression)
+{
+    ResultsParts results(run, compression);
+    if (fs::exists(results.file_) && !fs::exists(results.parts_))
+        run.warn(fmt::format("{} is not there; {} is kept as {}", results.parts_.string(), results_name,
+                             set_aside(results.file_).filename().string()));
+    provide_folder(results.parts_, run);
+    results.remove_parts(false);
+    JournalContent journal;
+    results.journal_ = Journal::resume(results.parts_ / "journal", values_of_record(run), meaning_of_rows(run),
+                                       run.resumed_step, journal);
+    results.last_row_ = journal.last_step(RecordKind::row);
+    const std::vector<std::string> later = results.look_at_parts(journal);
+    for (const std::string& steps : journal.losses())
+        results.missing_.push_back(fmt::format("rows of the history {}", steps));
+    if (!results.missing_.empty()) {
+        const std::size_t told = std::min(results.missing_.size(), most_losses_told);
+        run.warn(fmt::format(
+            "the results in {} are not whole; lost: {}{}", run.directory.string(),
+            fmt::join(results.missing_.begin(), results.missing_.begin() + static_cast<std::ptrdiff_t>(told), "; "),
+            told < results.missing_.size() ? fmt::format("; and {} more", results.missing_.size() - told) : ""));
+    }
+    // The result file stops showing what is later than the checkpoint before that is deleted.
+    results.show();
+    for (const std::string& name : later)
+        remove_file(results.parts_ / name);
+    return results;
+}
+
+std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journal)
+{
+    std::vector<std::string> later;
+    std::map<std::uint64_t, std::string> lost; // by number, in words
+    std::set<std::uint64_t> recorded;
+    for (const JournalRecord& record : journal.records)
+        if (record.kind == RecordKind::snapshot) {
+            const auto number = static_cast<std::uint64_t>(record.values[0]);
+            recorded.insert(number);
+            lost[number] = fmt::format("snapshot {:06} of step {}", number, record.step);
+        }
+    for (const std::string& name : names_in(parts_)) {
+        const auto known = number_and_step(name);
+        if (!known)
+            continue;
+        const auto [number, step] = *known;
+        if (step > run_.resumed_step) {
+            later.push_back(name);
+            continue;
+        }
+        std::optional<StoredSnapshot> stored = read_snapshot_part(parts_ / name);
+        if (!stored) {
+            lost[number] = fmt::format("snapshot {:06} of step {}, damaged, kept as {}/{}", number, step, parts_name,
+                                       set_aside(parts_ / name).filename().string());
+            continue;
+        }
+        lost.erase(number);
+        snapshots_.push_back(std::move(*stored));
+        if (!recorded.contains(number))
+            journal_.add(RecordKind::snapshot, step, std::vector{static_cast<double>(number)});
+    }
+    next_number_ = snapshots_.empty() ? 0 : snapshots_.back().number + 1;
+    if (!lost.empty())
+        next_number_ = std::max(next_number_, lost.rbegin()->first + 1);
+    std::uint64_t expected = 0;
+    for (const StoredSnapshot& snapshot : snapshots_) {
+        for (; expected < snapshot.number; ++expected)
+            lost.try_emplace(expected, fmt::format("snapshot {:06}", expected));
+        expected = snapshot.number + 1;
+        provide_vertices(snapshot.points);
+    }
+    for (const auto& [number, words] : lost)
+        missing_.push_back(words);
+    return later;
+}
+
+void ResultsParts::provide_vertices(std::size_t points)
+{
+    if (vertices_.contains(points))
+        return;
+    write_vertices_part(parts_, points, compression_);
+    vertices_.insert(points);
+}
+
+void ResultsParts::add(const Snapshot& snapshot, const std::vector<FieldView>& fields)
+{
+    if (!snapshots_.empty() && snapshots_.back().step == snapshot.step)
+        return;
+    provide_vertices(snapshot.positions.size() / 3);
+    snapshots_.push_back(write_snapshot_part(parts_, next_number_, snapshot, fields, compression_));
+    journal_.add(RecordKind::snapshot, snapshot.step, std::vector{static_cast<double>(next_number_)});
+    ++next_number_;
+    // Result file and XDMF grow with the number of snapshots. They are written again when the snapshots that wait are
+    // as large as they are, so that a run never writes more of them than of snapshots.
+    unshown_bytes_ += fs::file_size(parts_ / snapshots_.back().part_name());
+    if (unshown_bytes_ >= shown_bytes_)
+        show();
+}
+
+void ResultsParts::add(std::uint64_t step, std::span<const double> row)
+{
+    if (last_row_ == step)
+        return;
+    journal_.add(RecordKind::row, step, row);
+    last_row_ = step;
+}
+
+void ResultsParts::flush(std::uint64_t step)
+{
+    journal_.add(RecordKind::flush, step);
+    journal_.synchronize();
+    show();
+}
+
+void ResultsParts::show()
+{
+    write_linked_results(file_, {run_, snapshots_, journal_.read(), missing_, false}, parts_name);
+    write_xdmf();
+    unshown_bytes_ = 0;
+    shown_bytes_ = fs::file_size(file_) + fs::file_size(run_.directory / xdmf_name);
+}
+
+void ResultsParts::merge()
+{
+    journal_.synchronize();
+    for (std::size_t s = 0; s < snapshots_.size();) {
+        const fs::path part = parts_ / snapshots_[s].part_name();
+        if (fs::exists(part) && is_sound_part(part)) {
+            ++s;
+            continue;
+        }
+        missing_.push_back(fmt::format("snapshot {} of step {}", snapshots_[s].name(), snapshots_[s].step));
+        run_.warn(
+            fmt::format("{} was damaged or deleted while the run went on; the results are without it", part.string()));
+        snapshots_.erase(snapshots_.begin() + static_cast<std::ptrdiff_t>(s));
+    }
+    write_merged_results(file_, {run_, snapshots_, journal_.read(), missing_, true}, parts_, compression_);
+    write_xdmf();
+}
+
+void ResultsParts::write_xdmf() const
+{
+    write_whole(run_.directory / xdmf_name, xdmf_text(snapshots_, results_name));
+}
+
+void ResultsParts::remove_parts(bool all)
+{
+    for (const std::string& name : names_in(parts_)) {
+        const bool aside = name.ends_with(".part") && is_of_parts(name.substr(0, name.size() - 5));
+        if (aside || (all && is_of_parts(name)))
+            remove_file(parts_ / name);
+    }
+}
+
+void ResultsParts::clean_up()
+{
+    journal_ = {};
+    for (const StoredSnapshot& snapshot : snapshots_)
+        remove_file(parts_ / snapshot.part_name());
+    remove_parts(true);
+    std::error_code not_empty; // damaged parts are kept
+    fs::remove(parts_, not_empty);
+}
+
+} // namespace periporo::output
