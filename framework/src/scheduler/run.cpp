@@ -3,8 +3,11 @@
 //
 #include "scheduler/run.hpp"
 
+#include "io/checkpoint.hpp"
+#include "io/write_whole.hpp"
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
+#include "scheduler/interruption.hpp"
 #include "scheduler/progress.hpp"
 #include "scheduler/set_up_picture.hpp"
 #include "scheduler/simulation.hpp"
@@ -12,7 +15,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 #include <omp.h>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -53,6 +55,11 @@ struct Extremes {
 
 RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options)
 {
+    // Before anything is written: the checkpoint may be of another case.
+    FoundCheckpoint checkpoint;
+    if (options.resume)
+        checkpoint = find_checkpoint(options.directory, description.resolved);
+    InterruptionGuard interruption;
     std::filesystem::create_directories(options.directory);
     if (options.threads > 0)
         omp_set_num_threads(options.threads);
@@ -61,9 +68,15 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
         for (const std::string& warning : description.warnings)
             log->warn(warning);
         log->info("{}: '{}' into {}", description.file.string(), description.title, options.directory.string());
-        std::ofstream(options.directory / "case.toml") << description.resolved;
-        Simulation simulation(description, registry, options, log);
-        return simulation.run();
+        write_whole(options.directory / "case.toml", description.resolved);
+        for (const std::string& refused : checkpoint.refused)
+            log->warn("{}; going on from the older checkpoint, {}", refused, checkpoint.archive->file().string());
+        if (!checkpoint.refused.empty())
+            set_damaged_checkpoint_aside(options.directory);
+        if (options.resume && !checkpoint.archive)
+            log->warn("{} holds no checkpoint yet; starting from the beginning", options.directory.string());
+        Simulation simulation(description, registry, options, interruption, log);
+        return simulation.run(std::move(checkpoint.archive));
     } catch (const std::exception& error) {
         log->sinks().front()->log({"run", spdlog::level::err, error.what()});
         log->flush();

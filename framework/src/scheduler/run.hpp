@@ -7,7 +7,9 @@
 #include "case/description.hpp"
 #include "plugins/registry.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace periporo {
@@ -17,16 +19,19 @@ struct RunOptions {
     int threads = 0;                 ///< 0 takes what OpenMP offers
     bool resume = false;             ///< go on from the checkpoint in `directory`
     bool quiet = false;              ///< no progress on the terminal; the log file is written all the same
+    /// Stop with a checkpoint after so many steps of all stages; none: run to the end.
+    std::optional<std::uint64_t> stop_after = {};
 };
 
 enum class RunOutcome {
     complete,   ///< exit status 0
-    interrupted ///< SIGINT or SIGTERM came; a checkpoint was written, exit status 130
+    interrupted ///< stopped by a signal or as asked; a checkpoint was written, exit status 130
 };
 
 /// Runs the case. Writes log, results, checkpoint and summary into the directory.
 /// @throws std::exception with stage, step, time, point and position when the run goes wrong (exit status 1).
 /// @throws PluginError or CaseError when the fault is the user's (exit status 2).
+/// @throws ForeignCheckpoint when `resume` finds the run of another case or version; nothing has been written then.
 RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options);
 
 /// The case in plain words: bodies, points, families, stages, stable step, memory and the work ahead.

@@ -5,13 +5,15 @@
 #pragma once
 
 #include "contact/contact_forces.hpp"
-#include "io/checkpoint.hpp"
+#include "io/archive.hpp"
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
 #include "scheduler/interruption.hpp"
 #include "scheduler/output_schedule.hpp"
 #include "scheduler/progress.hpp"
 #include "scheduler/run.hpp"
+#include "scheduler/run_position.hpp"
+#include "scheduler/run_state.hpp"
 #include "time/dynamics.hpp"
 #include "time/stable_step.hpp"
 #include "water/water.hpp"
@@ -28,14 +30,16 @@ namespace periporo {
 class Simulation {
 public:
     Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
-               std::shared_ptr<spdlog::logger> log);
+               InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log);
 
     /// Runs all stages, or those that a checkpoint left over.
-    RunOutcome run();
+    RunOutcome run(std::optional<ArchiveReader> checkpoint);
 
 private:
-    RunDescription describe_run() const;
-    void restore();
+    RunDescription describe_run(bool resumed) const;
+    RunState state(RunPosition& position);
+    void restore(ArchiveReader& checkpoint);
+    RunOutcome stop();
     /// Gives the model the images and obstacles of a stage.
     void enter_stage(const StageDescription& stage);
     void begin_stage();
@@ -54,6 +58,9 @@ private:
     void check_motion();
     /// Fails, or warns of points that went through an obstacle in the last step.
     void check_crossings();
+    /// Why the run has to stop now, or nothing.
+    std::string reason_to_stop() const;
+    /// Writes a checkpoint when it is time for one. Does the run have to stop?
     bool stop_here();
     void checkpoint();
     double wall_seconds() const;
@@ -64,6 +71,7 @@ private:
     const CaseDescription& description_;
     const PluginRegistry& registry_;
     const RunOptions& options_;
+    InterruptionGuard& interruption_;
     std::shared_ptr<spdlog::logger> log_;
     Model model_;
     std::unique_ptr<ForceState> force_state_;
@@ -76,14 +84,11 @@ private:
     std::string stage_end_; ///< why the stage that has just ended did
     OutputSchedule outputs_;
     Progress progress_;
-    InterruptionGuard interruption_;
     nlohmann::json reports_ = nlohmann::json::array();
     std::chrono::steady_clock::time_point started_;
     std::chrono::steady_clock::time_point last_checkpoint_;
     std::chrono::duration<double> checkpoint_took_{0.0};
     std::uint64_t steps_here_ = 0; ///< in this process, for the speed
-    std::uint64_t estimates_ = 0;  ///< of the stable step, in this process
-    bool resuming_ = false;
 };
 
 } // namespace periporo
