@@ -1,7 +1,7 @@
 # Copyright 2026 The periporo authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-"""Breaks the operator, and the water, on purpose and demands that a test notices.
+"""Breaks the operator, the water and the checkpoints on purpose and demands that a test notices.
 
 A mutation replaces one text in one source. The mutated source is compiled with the command of the build, linked in
 front of the framework's library into a test program, and the program must report a failed check.
@@ -147,6 +147,24 @@ MUTATIONS = {
     ),
     "buoyancy_left_out_of_the_overburden": Mutation(
         "water/overburden.cpp", " - water.buoyancy_of(i)", "", "unit.water.overburden_test"
+    ),
+    "checksum_of_an_archive_not_verified": Mutation(
+        "io/archive.cpp", "if (checksum.checksum() != stored)", "if (false)", "unit.io.archive_test"
+    ),
+    "length_of_an_entry_believed": Mutation(
+        "io/archive.cpp", "if (entry.count > (end - entry.offset) / size)", "if (false)", "unit.io.archive_test"
+    ),
+    "damaged_checkpoint_left_in_its_place": Mutation(
+        "io/checkpoint.cpp",
+        "fs::rename(folder / checkpoint_name, folder / damaged_checkpoint_name);",
+        "fs::exists(folder);",
+        "unit.io.checkpoint_test",
+    ),
+    "energy_stored_in_contacts_lost_at_resume": Mutation(
+        "contact/contact_forces.cpp",
+        "const bool tracked = !searched_.empty();",
+        "stored_ = {};\n    const bool tracked = !searched_.empty();",
+        "unit.time.obstacle_corners_test",
     ),
 }
 

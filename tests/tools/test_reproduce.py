@@ -46,7 +46,7 @@ case "$*" in
     *behave=wait*)
         if [[ "$*" != *--resume* ]]; then
             stop() {
-                touch "$out/checkpoint.h5"
+                touch "$out/checkpoint.bin"
                 echo '{"outcome": "interrupted"}' >"$out/summary.json"
                 exit 130
             }
@@ -55,7 +55,7 @@ case "$*" in
             for ((i = 0; i < 600; ++i)); do sleep 0.1; done
         fi ;;
 esac
-rm -f "$out/checkpoint.h5"
+rm -f "$out/checkpoint.bin"
 touch "$out/results.h5"
 echo '{"outcome": "complete", "wall_seconds": 2.0}' >"$out/summary.json"
 """
@@ -141,7 +141,7 @@ values = [1, { label = "2", set = ["behave=fine"] }, 3]
         text = self.SWEEP.replace("behave=fine", "behave=crash")
         self.assertEqual(self.reproduce(text)[0], 1)
         self.assertEqual(self.states(), [State.COMPLETE, State.FAILED, State.COMPLETE])
-        (self.out / "one/x2/checkpoint.h5").touch()  # left before a disk was full, perhaps
+        (self.out / "one/x2/checkpoint.bin").touch()  # left before a disk was full, perhaps
         self.assertEqual(self.states()[1], State.INTERRUPTED)
 
     def test_a_case_that_the_program_refuses_leaves_the_earlier_results_those_of_the_earlier_case(self):
@@ -164,7 +164,7 @@ values = [1, { label = "2", set = ["behave=fine"] }, 3]
         self.reproduce()
         for name in ("x1", "x3"):
             (self.out / "one" / name / "summary.json").unlink()
-        (self.out / "one/x1/checkpoint.h5").touch()
+        (self.out / "one/x1/checkpoint.bin").touch()
         status, calls, error = self.reproduce()
         self.assertEqual(status, 0)
         self.assertIn("--resume", calls[0])
@@ -175,7 +175,7 @@ values = [1, { label = "2", set = ["behave=fine"] }, 3]
         text = self.SWEEP.replace("behave=fine", "behave=refuse")
         self.reproduce(text)
         (self.out / "one/x2/summary.json").unlink()
-        (self.out / "one/x2/checkpoint.h5").touch()
+        (self.out / "one/x2/checkpoint.bin").touch()
         status, calls, error = self.reproduce(text)
         self.assertEqual(status, 0)
         self.assertEqual(["--resume" in call for call in calls], [True, False])

@@ -9,18 +9,25 @@
 #include "io/run_folder.hpp"
 #include "plugins/registry.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 namespace periporo::cli {
 namespace {
 
+/// Prints to standard error; a terminal that is gone is no error.
+void tell(const std::string& text)
+{
+    std::fputs(text.c_str(), stderr);
+}
+
 ExitStatus complain(ExitStatus status, const char* message)
 {
-    fmt::print(stderr, "periporo: {}\n", message);
+    tell(fmt::format("periporo: {}\n", message));
     return status;
 }
 
@@ -32,7 +39,7 @@ ExitStatus report_faults(const std::function<ExitStatus()>& action)
         return action();
     } catch (const CaseError& error) {
         const std::size_t count = error.diagnostics().size();
-        fmt::print(stderr, "{}{} error{}; nothing was run\n", error.what(), count, count == 1 ? "" : "s");
+        tell(fmt::format("{}{} error{}; nothing was run\n", error.what(), count, count == 1 ? "" : "s"));
         return ExitStatus::wrong_input;
     } catch (const PluginError& error) {
         return complain(ExitStatus::wrong_input, error.what());

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <stdexcept>
 
 namespace periporo {
 namespace {
@@ -35,6 +36,12 @@ bool is_nowhere(const Vector3& place)
 
 void ContactForces::find_candidates(const Model& model, double slack)
 {
+    find_candidates_among_points(model, slack);
+    follow_surfaces(model);
+}
+
+void ContactForces::find_candidates_among_points(const Model& model, double slack)
+{
     candidates_.assign(assignments_.size(), {});
     smoothed_.resize(assignments_.size());
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
@@ -48,7 +55,6 @@ void ContactForces::find_candidates(const Model& model, double slack)
             find_pairs_apart(model, a, slack);
         }
     }
-    follow_surfaces(model);
 }
 
 void ContactForces::follow_surfaces(const Model& model)
@@ -95,8 +101,6 @@ void ContactForces::find_near_surfaces(const Model& model)
 
 void ContactForces::list_near_surfaces(const Model& model)
 {
-    near_surface_.resize(assignments_.size());
-    free_place_.resize(assignments_.size());
     std::vector<std::uint8_t> near(model.size(), 0);
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
         const ContactAssignment& assignment = assignments_[a];
@@ -152,47 +156,18 @@ void ContactForces::make_room(const Model& model)
     }
 }
 
-std::vector<double> ContactForces::rooms() const
+void ContactForces::resume(const Model& model, double slack)
 {
-    std::vector<double> all;
-    for (const std::vector<double>& room : room_)
-        all.insert(all.end(), room.begin(), room.end());
-    return all;
-}
-
-void ContactForces::set_rooms(const Model& model, std::span<const double> rooms)
-{
-    std::size_t taken = 0;
-    for (std::size_t a = 0; a < assignments_.size() && taken < rooms.size(); ++a) {
-        if (!at_rigid_surface(assignments_[a]) || !RigidContactSurface(model, assignments_[a]).present())
-            continue;
-        const auto first = rooms.begin() + static_cast<std::ptrdiff_t>(taken);
-        room_[a].assign(first, first + static_cast<std::ptrdiff_t>(model.size()));
-        taken += model.size();
-    }
-}
-
-ContactForces::SurfaceTrack ContactForces::surface_track() const
-{
-    SurfaceTrack track{{}, searched_, searched_shifts_};
-    for (const std::vector<Vector3>& places : free_place_)
-        track.free_places.insert(track.free_places.end(), places.begin(), places.end());
-    return track;
-}
-
-void ContactForces::set_surface_track(const Model& model, const SurfaceTrack& track)
-{
-    if (track.searched.size() != model.size())
-        return; // no surface
-    searched_ = track.searched;
-    searched_shifts_ = track.searched_shifts;
-    list_near_surfaces(model);
-    auto place = track.free_places.begin();
-    for (std::vector<Vector3>& places : free_place_) {
-        const auto end = place + static_cast<std::ptrdiff_t>(places.size());
-        places.assign(place, end);
-        place = end;
-    }
+    const bool tracked = !searched_.empty();
+    bool fits = stored_.point.size() == stored_.obstacle.size() && stored_.point.size() == stored_.energy.size() &&
+                (!tracked || searched_shifts_.size() == model.obstacles.size());
+    for (std::size_t a = 0; a < assignments_.size(); ++a)
+        fits = fits && (!tracked || !assignments_[a].obstacle || free_place_[a].size() == model.size());
+    if (!fits)
+        throw std::runtime_error("the contacts that were kept do not fit each other");
+    find_candidates_among_points(model, slack);
+    if (tracked)
+        list_near_surfaces(model);
 }
 
 void ContactForces::note_overlap(std::size_t assignment, double overlap)
@@ -229,9 +204,9 @@ void ContactForces::let_go(const Model& model, std::size_t assignment, std::uint
 {
     crossings_.push_back({assignment, point});
     ++crossed_points_[assignment];
-    for (const SurfaceContact& before : contacts_before_)
-        if (before.point == point && before.obstacle == assignments_[assignment].obstacle)
-            energy_let_go_ += before.energy;
+    for (std::size_t s = 0; s < stored_.point.size(); ++s)
+        if (stored_.point[s] == point && stored_.obstacle[s] == assignments_[assignment].obstacle)
+            energy_let_go_ += stored_.energy[s];
     std::vector<double>& room = room_[assignment];
     if (room.empty())
         room.assign(model.size(), assignments_[assignment].law->cutoff());
@@ -308,7 +283,6 @@ void ContactForces::add_reactions(const Model& model, double time_step, Approach
     crossings_.clear();
     obstacle_reactions_.assign(model.obstacles.size() + 1, Vector3::Zero());
     energy_let_go_ = 0.0;
-    contacts_before_.swap(surface_contacts_);
     surface_contacts_.clear();
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
         if (at_rigid_surface(assignments_[a]))
@@ -321,6 +295,14 @@ void ContactForces::add_reactions(const Model& model, double time_step, Approach
     energy_ = 0.0;
     for (const double energy : point_energy_)
         energy_ += energy;
+    stored_.point.clear();
+    stored_.obstacle.clear();
+    stored_.energy.clear();
+    for (const SurfaceContact& contact : surface_contacts_) {
+        stored_.point.push_back(contact.point);
+        stored_.obstacle.push_back(contact.obstacle);
+        stored_.energy.push_back(contact.energy);
+    }
 }
 
 void ContactForces::add_surface_friction(const Model& model, double time_step, std::vector<Vector3>& force)

@@ -55,8 +55,9 @@ struct ContactBound {
 class ContactForces {
 public:
     explicit ContactForces(std::vector<ContactAssignment> assignments)
-        : assignments_(std::move(assignments)), candidates_(assignments_.size()), room_(assignments_.size()),
-          deepest_(assignments_.size(), 0.0), crossed_points_(assignments_.size(), 0)
+        : assignments_(std::move(assignments)), candidates_(assignments_.size()), near_surface_(assignments_.size()),
+          room_(assignments_.size()), free_place_(assignments_.size()), deepest_(assignments_.size(), 0.0),
+          crossed_points_(assignments_.size(), 0)
     {
     }
 
@@ -99,29 +100,37 @@ public:
     const ObstaclePower& obstacle_power() const { return obstacle_power_; }
     /// Force of each obstacle on all points in the last step [N].
     const std::vector<Vector3>& reactions_of_obstacles() const { return obstacle_reactions_; }
-    /// Reach of all points at each rigid surface that has acted [m], as make_room() says; one list after the other.
-    std::vector<double> rooms() const;
-    void set_rooms(const Model& model, std::span<const double> rooms);
     /// For each assignment the deepest overlap of the run so far, over the reach of the contact: at 1 the two points
     /// lie in one place, or a point lies in the surface; beyond that it lies behind it.
     const std::vector<double>& deepest_overlap() const { return deepest_; }
-    void set_deepest_overlap(std::vector<double> deepest) { deepest_ = std::move(deepest); }
     const std::vector<ContactAssignment>& assignments() const { return assignments_; }
     /// Points that came out of an obstacle at another side than they had entered it, or jumped over it, in the last
     /// step. The obstacle has let go of them: what they had stored in the contact is lost.
     const std::vector<Crossing>& crossings() const { return crossings_; }
     /// For each assignment, how many there have been in the run so far.
     const std::vector<std::int64_t>& crossed_points() const { return crossed_points_; }
-    void set_crossed_points(std::vector<std::int64_t> count) { crossed_points_ = std::move(count); }
 
-    /// What must be kept of rigid surfaces besides their rooms to go on as if nothing had happened.
-    struct SurfaceTrack {
-        std::vector<Vector3> free_places;     ///< see free_place_; one list after the other
-        std::vector<Vector3> searched;        ///< positions of the points when near ones were last sought [m]
-        std::vector<Vector3> searched_shifts; ///< of the obstacles [m]
-    };
-    SurfaceTrack surface_track() const;
-    void set_surface_track(const Model& model, const SurfaceTrack& track);
+    /// What lives from step to step.
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit, std::size_t points, std::size_t obstacles)
+    {
+        for (std::size_t a = 0; a < self.assignments_.size(); ++a) {
+            visit("room/" + std::to_string(a), empty_or(self.room_[a], points));
+            visit("free_place/" + std::to_string(a), any_reals(empty_or(self.free_place_[a], points)));
+        }
+        visit("searched", empty_or(self.searched_, points));
+        visit("searched_shifts", empty_or(self.searched_shifts_, obstacles));
+        visit("energy", self.energy_);
+        visit.part("stored", self.stored_, points * self.assignments_.size());
+        visit("possible", any_reals(empty_or(self.possible_, self.assignments_.size())));
+        visit("deepest", self.deepest_);
+        visit("crossed_points", self.crossed_points_);
+        visit("grain_reach", any_reals(empty_or(self.grain_reach_, points)));
+    }
+    /// Sets what follows from the members. The records must have the positions of the last refresh.
+    /// @param slack as for find_candidates() [m]
+    /// @throws std::runtime_error when the members do not fit each other
+    void resume(const Model& model, double slack);
 
     /// Stored in all contacts at the last add_reactions [J].
     double energy() const { return energy_; }
@@ -135,7 +144,6 @@ public:
     /// Reach of each point against free grains [m]; below zero while the point is bonded, without limit if it always
     /// was. Empty before the first step.
     const std::vector<double>& grain_reach() const { return grain_reach_; }
-    void set_grain_reach(std::vector<double> reach) { grain_reach_ = std::move(reach); }
 
     /// For the stable step, of every point: every law at full overlap, with the contacts that there are at the present
     /// positions and those whose gap is below a margin. Records must be current, and candidates found.
@@ -170,6 +178,8 @@ private:
     /// @param crowd for every point the sum of all |w| that press on it; empty: nothing else does
     static Carrier carrier(const Model& model, const Support& support, std::span<const double> crowd);
 
+    /// Points of bodies that may touch points of bodies before the next refresh.
+    void find_candidates_among_points(const Model& model, double slack);
     void find_pairs(const Model& model, std::size_t assignment, double slack);
     /// Pieces of a body that are apart and may touch.
     void find_pairs_apart(const Model& model, std::size_t assignment, double slack);
@@ -251,7 +261,21 @@ private:
     std::vector<std::uint8_t> concerned_; ///< 1: the point may touch another of its body
     std::vector<Vector3> friction_;
     std::vector<SurfaceContact> surface_contacts_;
-    std::vector<SurfaceContact> contacts_before_; ///< at the evaluation before this one
+    /// What each point stored in contacts with rigid surfaces at the last evaluation.
+    struct Stored {
+        std::vector<std::uint32_t> point;
+        std::vector<std::uint32_t> obstacle; ///< as SurfaceContact::obstacle
+        std::vector<double> energy;          ///< [J]
+
+        template <class Self, class Visit>
+        static void members(Self& self, Visit& visit, std::size_t most)
+        {
+            visit("point", at_most(self.point, most));
+            visit("obstacle", at_most(self.obstacle, most));
+            visit("energy", at_most(self.energy, most));
+        }
+    };
+    Stored stored_;
     double energy_let_go_ = 0.0;
     std::vector<ContactBound> bounds_;
     double sharpest_ = 0.0;

@@ -232,7 +232,28 @@ Families Families::restore(const Points& points, IsometryTable& isometries, doub
     families.count_ = kept.family_counts;
     families.lay_out(by_block(kept.family_counts, kept.family_neighbours));
     families.lay_out_apart(by_block(kept.apart_counts, kept.apart_neighbours), kept.apart_counts);
+    if (!families.are_sound(points, isometries, horizon))
+        throw std::runtime_error("the families that were kept do not fit these points");
     return families;
+}
+
+bool Families::are_sound(const Points& points, const IsometryTable& isometries, double horizon) const
+{
+    const std::vector<Vector3> positions = positions_with_images(points, isometries);
+    const double reach_squared = horizon * horizon * (1.0 + 1e-9); // round-off of another order of operations
+    bool sound = true;
+#pragma omp parallel for schedule(static) reduction(&& : sound)
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(this->points()); ++i) {
+        const FamilyView family = (*this)[i];
+        for (std::size_t b = 0; b < family.count; ++b) {
+            const std::uint32_t c = family.neighbours[b];
+            sound = sound && c != i && (b == 0 || key(family.neighbours[b - 1]) < key(c)) &&
+                    points.body[parent(c)] == points.body[i] &&
+                    (positions[c] - positions[i]).squaredNorm() <= reach_squared &&
+                    holds(parent(c), opposite_key(i, c, isometries));
+        }
+    }
+    return sound;
 }
 
 std::optional<std::size_t> Families::find_bond(std::uint32_t point, std::uint64_t wanted) const

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,10 +59,22 @@ public:
     /// Neighbours of all points, as a checkpoint keeps them: families depend on those before them.
     struct Kept {
         std::vector<std::uint32_t> family_counts, family_neighbours, apart_counts, apart_neighbours;
+
+        template <class Self, class Visit>
+        static void members(Self& self, Visit& visit, std::size_t points)
+        {
+            const auto sum = [](const std::vector<std::uint32_t>& counts) {
+                return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+            };
+            visit("counts", exactly(self.family_counts, points));
+            visit("neighbours", exactly(self.family_neighbours, sum(self.family_counts)));
+            visit("apart_counts", exactly(self.apart_counts, points));
+            visit("apart", exactly(self.apart_neighbours, sum(self.apart_counts)));
+        }
     };
     Kept kept() const;
     /// The families that were kept, for the positions that they were found from.
-    /// @throws std::runtime_error when they do not fit the points.
+    /// @throws std::runtime_error when they are no families of these points.
     static Families restore(const Points& points, IsometryTable& isometries, double horizon, const Kept& kept);
 
     FamilyView operator[](std::size_t point) const
@@ -120,6 +133,8 @@ private:
     /// Lays out families found block by block; `count_` must be set.
     void lay_out(const Found& found);
     void lay_out_apart(const Found& found, std::span<const std::uint32_t> counts);
+    /// Is every family ordered by key, of points of one body within the horizon, and mutual?
+    bool are_sound(const Points& points, const IsometryTable& isometries, double horizon) const;
     /// Takes bonds to images out that have no opposite: the two ends measure a chain through images from different
     /// sides, and rounding may tell them apart.
     void drop_one_sided(const IsometryTable& isometries);

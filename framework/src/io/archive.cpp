@@ -1,109 +1,96 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Archives as HDF5 files: one dataset per name, slashes in names make groups.
+// The file of an archive: a mark, entries, and the CRC-32 of all bytes before it.
+//
+// An entry is its kind (1 byte), the length of its name (4), its count of numbers (8), the name and the numbers, as the
+// machine has them. The mark tells the order of bytes.
 #include "io/archive.hpp"
 
-#include <H5Cpp.h>
+#include <boost/crc.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
-#include <stdexcept>
+#include <map>
+#include <set>
+#include <span>
 #include <system_error>
-#include <utility>
 
 namespace periporo {
 
 namespace {
 
 using std::filesystem::path;
+using Checksum = boost::crc_32_type;
 
-/// Runs `action` and turns what HDF5 throws, which is no std::exception, into an error with `what` and the file.
-template <class Action>
-auto guarded(const std::string& what, const path& file, Action&& action)
+constexpr char mark[] = "periporo archive 1\n";
+constexpr std::uint32_t byte_order = 0x01020304;
+constexpr std::size_t mark_size = sizeof(mark) - 1 + sizeof(byte_order);
+constexpr std::size_t checksum_size = 4;
+constexpr std::size_t largest_name = 1024;
+constexpr std::size_t buffer_size = std::size_t{1} << 20;
+
+[[noreturn]] void throw_errno(const std::string& what, const path& file, int error = errno)
 {
-    try {
-        H5::Exception::dontPrint();
-        return action();
-    } catch (const H5::Exception& error) {
-        throw std::runtime_error(
-            fmt::format("{} {}: HDF5: {} ({})", what, file.string(), error.getDetailMsg(), error.getFuncName()));
+    throw ArchiveError(fmt::format("cannot {} {}: {}", what, file.string(), std::strerror(error)));
+}
+
+/// A file of the system that is closed at the end.
+class Descriptor {
+public:
+    Descriptor(const path& file, int flags) : number_(::open(file.c_str(), flags | O_CLOEXEC, 0666)) {}
+    ~Descriptor()
+    {
+        if (number_ >= 0)
+            ::close(number_);
     }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    int number() const { return number_; }
+    /// @return 0, or errno
+    int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
+
+private:
+    int number_;
+};
+
+/// Returns when the contents of a file or the entries of a folder are on the disk.
+void synchronize(int descriptor, const path& file)
+{
+    if (::fsync(descriptor) != 0 && errno != EINVAL && errno != EROFS) // some file systems cannot flush a folder
+        throw_errno("write", file);
 }
 
-[[noreturn]] void throw_errno(const std::string& what, const path& file)
+template <class Number>
+bool all_finite(const void* numbers, std::size_t count)
 {
-    throw std::runtime_error(fmt::format("{} {}: {}", what, file.string(), std::strerror(errno)));
+    const auto* first = static_cast<const Number*>(numbers);
+    return std::all_of(first, first + count, [](Number number) { return std::isfinite(number); });
 }
 
-/// Opens and closes the file as the system does, because HDF5 does not pass on why it could not.
-void probe(const std::string& what, const path& file, int flags)
+/// Returns when the entries of the folder of a file are on the disk.
+void synchronize_folder_of(const path& file)
 {
-    const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-        throw_errno(what, file);
-    ::close(descriptor);
+    const path folder = file.has_parent_path() ? file.parent_path() : path(".");
+    const Descriptor descriptor(folder, O_RDONLY);
+    if (descriptor.number() < 0)
+        throw_errno("write", folder);
+    synchronize(descriptor.number(), folder);
 }
 
-/// Returns when the contents of the file or the entries of the folder are on the disk.
-void synchronize(const path& file)
+void move_to(const path& from, const path& to)
 {
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0)
-        throw_errno("cannot flush", file);
-    const int status = ::fsync(descriptor);
-    const int error = errno;
-    ::close(descriptor);
-    if (status != 0 && error != EINVAL && error != EROFS) { // some file systems cannot flush a folder
-        errno = error;
-        throw_errno("cannot flush", file);
-    }
-}
-
-template <class Value>
-const H5::PredType& stored_type();
-template <>
-const H5::PredType& stored_type<double>()
-{
-    return H5::PredType::NATIVE_DOUBLE;
-}
-template <>
-const H5::PredType& stored_type<std::int64_t>()
-{
-    return H5::PredType::NATIVE_INT64;
-}
-template <>
-const H5::PredType& stored_type<std::uint8_t>()
-{
-    return H5::PredType::NATIVE_UINT8;
-}
-
-template <class Parts>
-hsize_t length(const Parts& parts)
-{
-    hsize_t size = 0;
-    for (const auto& part : parts)
-        size += part.size();
-    return size;
-}
-
-/// Calls visit(part, its place in the dataset, its place by itself) for all parts that are not empty.
-template <class Parts, class Visit>
-void for_slices(const H5::DataSet& dataset, const Parts& parts, Visit&& visit)
-{
-    H5::DataSpace there = dataset.getSpace();
-    hsize_t first = 0;
-    for (const auto& part : parts) {
-        const hsize_t size = part.size();
-        if (size == 0)
-            continue;
-        there.selectHyperslab(H5S_SELECT_SET, &size, &first);
-        visit(part, there, H5::DataSpace(1, &size));
-        first += size;
-    }
+    std::error_code error;
+    std::filesystem::rename(from, to, error);
+    if (error)
+        throw_errno(fmt::format("rename {} to", from.string()), to, error.value());
 }
 
 } // namespace
@@ -111,221 +98,259 @@ void for_slices(const H5::DataSet& dataset, const Parts& parts, Visit&& visit)
 struct ArchiveWriter::Implementation {
     path target;
     path part;
-    H5::H5File file;
+    Descriptor file;
+    std::vector<char> buffer;
+    std::set<std::string> names;
+    Checksum checksum;
+    bool completed = false;
     bool committed = false;
 
-    /// Makes a dataset and calls fill(dataset).
-    template <class Fill>
-    void write(const std::string& name, const H5::DataType& type, const H5::DataSpace& space, Fill&& fill)
+    explicit Implementation(path to)
+        : target(std::move(to)), part(target.string() + ".part"), file(part, O_WRONLY | O_CREAT | O_TRUNC)
     {
-        guarded(fmt::format("cannot write \"{}\" to", name), part, [&] {
-            H5::LinkCreatPropList links;
-            links.setCreateIntermediateGroup(true);
-            H5::DataSet dataset = file.createDataSet(name, type, space, H5::DSetCreatPropList::DEFAULT,
-                                                     H5::DSetAccPropList::DEFAULT, links);
-            fill(dataset);
-            dataset.close(); // here and not in its destructor, which could not report a full disk
-        });
+        if (file.number() < 0)
+            throw_errno("write", part);
+        buffer.reserve(buffer_size);
     }
 
-    template <class Value>
-    void put_parts(const std::string& name, std::span<const std::span<const Value>> parts)
+    void write_out(const char* bytes, std::size_t size)
     {
-        const hsize_t size = length(parts);
-        const H5::PredType& type = stored_type<Value>();
-        write(name, type, H5::DataSpace(1, &size), [&](H5::DataSet& dataset) {
-            for_slices(dataset, parts, [&](auto part, const H5::DataSpace& there, const H5::DataSpace& here) {
-                dataset.write(part.data(), type, here, there);
-            });
-        });
+        checksum.process_bytes(bytes, size);
+        while (size > 0) {
+            const ssize_t written = ::write(file.number(), bytes, size);
+            if (written < 0 && errno == EINTR)
+                continue;
+            if (written <= 0)
+                throw_errno("write", part, written < 0 ? errno : ENOSPC);
+            bytes += written;
+            size -= static_cast<std::size_t>(written);
+        }
     }
 
-    template <class Value>
-    void put(const std::string& name, std::span<const Value> values)
+    void flush()
     {
-        put_parts<Value>(name, {&values, 1});
+        write_out(buffer.data(), buffer.size());
+        buffer.clear();
+    }
+
+    void append(const void* data, std::size_t size)
+    {
+        const char* bytes = static_cast<const char*>(data);
+        if (buffer.size() + size > buffer_size)
+            flush();
+        if (size > buffer_size)
+            write_out(bytes, size);
+        else
+            buffer.insert(buffer.end(), bytes, bytes + size);
     }
 };
 
-ArchiveWriter::ArchiveWriter(path target) : implementation_(std::make_unique<Implementation>())
+ArchiveWriter::ArchiveWriter(path target) : implementation_(std::make_unique<Implementation>(std::move(target)))
 {
-    implementation_->part = target;
-    implementation_->part += ".part";
-    implementation_->target = std::move(target);
-    const path& part = implementation_->part;
-    probe("cannot write", part, O_WRONLY | O_CREAT);
-    guarded("cannot write", part, [&] { implementation_->file = H5::H5File(part.string(), H5F_ACC_TRUNC); });
+    implementation_->append(mark, sizeof(mark) - 1);
+    implementation_->append(&byte_order, sizeof(byte_order));
 }
 
 ArchiveWriter::~ArchiveWriter()
 {
     if (implementation_->committed)
         return;
-    try {
-        implementation_->file.close();
-    } catch (const H5::Exception&) { // it is thrown away in any case
-    }
     std::error_code ignored;
     std::filesystem::remove(implementation_->part, ignored);
 }
 
-void ArchiveWriter::put(const std::string& name, std::span<const double> values)
+void ArchiveWriter::put(const std::string& name, StoredKind kind, const void* numbers, std::size_t count)
 {
-    implementation_->put(name, values);
+    const std::string full = group_ + name;
+    if (full.empty() || full.size() > largest_name || !implementation_->names.insert(full).second)
+        throw ArchiveError(fmt::format("cannot write \"{}\" to {}: an entry has a name of its own", full,
+                                       implementation_->part.string()));
+    const auto length = static_cast<std::uint32_t>(full.size());
+    const auto stored = static_cast<std::uint64_t>(count);
+    implementation_->append(&kind, sizeof(kind));
+    implementation_->append(&length, sizeof(length));
+    implementation_->append(&stored, sizeof(stored));
+    implementation_->append(full.data(), full.size());
+    if (count > 0)
+        implementation_->append(numbers, count * size_of(kind));
 }
 
-void ArchiveWriter::put(const std::string& name, std::span<const std::int64_t> values)
+void ArchiveWriter::complete()
 {
-    implementation_->put(name, values);
+    Implementation& archive = *implementation_;
+    if (std::exchange(archive.completed, true))
+        return;
+    archive.flush();
+    const std::uint32_t checksum = archive.checksum.checksum();
+    archive.append(&checksum, sizeof(checksum));
+    archive.flush();
+    synchronize(archive.file.number(), archive.part);
+    if (const int error = archive.file.close(); error != 0)
+        throw_errno("write", archive.part, error);
 }
 
-void ArchiveWriter::put(const std::string& name, std::span<const std::uint8_t> values)
+void ArchiveWriter::commit(const path& previous)
 {
-    implementation_->put(name, values);
-}
-
-void ArchiveWriter::put(const std::string& name, const std::string& text)
-{
-    // A fixed-length string keeps every character, a null one too; it cannot be empty, an empty dataspace can.
-    H5::StrType type(H5::PredType::C_S1, text.empty() ? 1 : text.size());
-    type.setStrpad(H5T_STR_NULLPAD);
-    type.setCset(H5T_CSET_UTF8);
-    if (text.empty())
-        implementation_->write(name, type, H5::DataSpace(H5S_NULL), [](H5::DataSet&) {});
-    else
-        implementation_->write(name, type, H5::DataSpace(H5S_SCALAR),
-                               [&](H5::DataSet& dataset) { dataset.write(text.data(), type); });
-}
-
-void ArchiveWriter::put_parts(const std::string& name, std::span<const std::span<const double>> parts)
-{
-    implementation_->put_parts(name, parts);
-}
-
-void ArchiveWriter::commit()
-{
-    const path& part = implementation_->part;
-    const path& target = implementation_->target;
-    guarded("cannot write", part, [&] { implementation_->file.close(); });
-    synchronize(part);
-    std::error_code error;
-    std::filesystem::rename(part, target, error);
-    if (error)
-        throw std::runtime_error(
-            fmt::format("cannot rename {} to {}: {}", part.string(), target.string(), error.message()));
-    implementation_->committed = true;
-    const path folder = target.parent_path();
-    synchronize(folder.empty() ? path(".") : folder);
+    complete();
+    Implementation& archive = *implementation_;
+    if (!previous.empty() && std::filesystem::exists(archive.target))
+        move_to(archive.target, previous);
+    move_to(archive.part, archive.target);
+    archive.committed = true;
+    synchronize_folder_of(archive.target);
 }
 
 struct ArchiveReader::Implementation {
+    struct Entry {
+        StoredKind kind;
+        std::uint64_t count;
+        std::uint64_t offset;
+    };
+
     path source;
-    H5::H5File file;
+    Descriptor file;
+    std::uint64_t end = 0; ///< of the entries
+    std::map<std::string, Entry> entries;
 
-    bool has(const std::string& name) const
+    explicit Implementation(path from) : source(std::move(from)), file(source, O_RDONLY | O_NONBLOCK)
     {
-        // HDF5 answers for the last member of a path only when those before it exist.
-        return guarded("cannot read", source, [&] {
-            std::size_t end = 0;
-            do {
-                end = name.find('/', end + 1);
-                if (!file.nameExists(name.substr(0, end)))
-                    return false;
-            } while (end != std::string::npos);
-            return file.childObjType(name) == H5O_TYPE_DATASET;
-        });
+        if (file.number() < 0)
+            throw_errno("read", source);
+        struct stat status = {};
+        if (::fstat(file.number(), &status) != 0)
+            throw_errno("read", source);
+        if (!S_ISREG(status.st_mode))
+            throw ArchiveError(fmt::format("{} is no file", source.string()));
+        const auto size = static_cast<std::uint64_t>(status.st_size);
+        if (size < mark_size + checksum_size)
+            refuse("it ends too early");
+        end = size - checksum_size;
+        verify();
+        find_entries();
     }
 
-    H5::DataSet open(const std::string& name, H5T_class_t expected, const char* what) const
+    [[noreturn]] void refuse(const std::string& why) const
     {
-        if (name.empty() || !has(name))
-            throw std::runtime_error(fmt::format("{} holds no \"{}\"", source.string(), name));
-        H5::DataSet dataset = guarded("cannot read", source, [&] { return file.openDataSet(name); });
-        if (dataset.getTypeClass() != expected)
-            throw std::runtime_error(fmt::format("\"{}\" in {} is not {}", name, source.string(), what));
-        return dataset;
+        throw ArchiveError(fmt::format("{} is damaged: {}", source.string(), why));
     }
 
-    /// The dataset of an array of `value_size` bytes a value.
-    H5::DataSet open_array(const std::string& name, H5T_class_t expected, std::size_t value_size,
-                           const char* what) const
+    void read(void* data, std::size_t size, std::uint64_t offset) const
     {
-        H5::DataSet dataset = open(name, expected, what);
-        const std::size_t size = guarded("cannot read", source, [&] { return dataset.getDataType().getSize(); });
-        if (size != value_size)
-            throw std::runtime_error(fmt::format("\"{}\" in {} is not {}", name, source.string(), what));
-        return dataset;
+        char* bytes = static_cast<char*>(data);
+        while (size > 0) {
+            const ssize_t got = ::pread(file.number(), bytes, size, static_cast<off_t>(offset));
+            if (got < 0 && errno == EINTR)
+                continue;
+            if (got < 0)
+                throw_errno("read", source);
+            if (got == 0)
+                refuse("it ends too early");
+            bytes += got;
+            size -= static_cast<std::size_t>(got);
+            offset += static_cast<std::uint64_t>(got);
+        }
     }
 
-    template <class Value>
-    std::vector<Value> get(const std::string& name, H5T_class_t expected, const char* what) const
+    void verify() const
     {
-        const H5::DataSet dataset = open_array(name, expected, sizeof(Value), what);
-        return guarded(fmt::format("cannot read \"{}\" from", name), source, [&] {
-            std::vector<Value> values(static_cast<std::size_t>(dataset.getSpace().getSimpleExtentNpoints()));
-            if (!values.empty())
-                dataset.read(values.data(), stored_type<Value>());
-            return values;
-        });
+        Checksum checksum;
+        std::vector<char> buffer(std::min<std::uint64_t>(buffer_size, end));
+        for (std::uint64_t at = 0; at < end; at += buffer.size()) {
+            buffer.resize(std::min<std::uint64_t>(buffer.size(), end - at));
+            read(buffer.data(), buffer.size(), at);
+            if (at == 0 && std::memcmp(buffer.data(), mark, sizeof(mark) - 1) != 0)
+                refuse("it does not begin as an archive of this program does");
+            checksum.process_bytes(buffer.data(), buffer.size());
+        }
+        std::uint32_t stored = 0, order = 0;
+        read(&stored, sizeof(stored), end);
+        read(&order, sizeof(order), sizeof(mark) - 1);
+        if (checksum.checksum() != stored)
+            refuse("its checksum does not agree with its content");
+        if (order != byte_order)
+            throw ArchiveError(fmt::format("{} was written by a machine of another kind", source.string()));
+    }
+
+    void find_entries()
+    {
+        for (std::uint64_t at = mark_size; at < end;) {
+            Entry entry = {};
+            std::uint32_t length = 0;
+            constexpr std::size_t head = sizeof(entry.kind) + sizeof(length) + sizeof(entry.count);
+            if (end - at < head)
+                refuse("its last entry is not whole");
+            read(&entry.kind, sizeof(entry.kind), at);
+            read(&length, sizeof(length), at + sizeof(entry.kind));
+            read(&entry.count, sizeof(entry.count), at + sizeof(entry.kind) + sizeof(length));
+            const std::size_t size = size_of(entry.kind);
+            if (size == 0 || length == 0 || length > largest_name || length > end - at - head)
+                refuse("an entry has no kind or no name");
+            std::string name(length, '\0');
+            read(name.data(), length, at + head);
+            entry.offset = at + head + length;
+            if (entry.count > (end - entry.offset) / size)
+                refuse(fmt::format("\"{}\" is longer than the file", name));
+            at = entry.offset + entry.count * size;
+            if (!entries.emplace(name, entry).second)
+                refuse(fmt::format("it holds \"{}\" twice", name));
+        }
+    }
+
+    const Entry& find(const std::string& name, StoredKind kind) const
+    {
+        const auto found = entries.find(name);
+        if (found == entries.end())
+            throw ArchiveError(fmt::format("{} holds no \"{}\"", source.string(), name));
+        if (found->second.kind != kind)
+            throw ArchiveError(fmt::format("\"{}\" in {} is of another kind", name, source.string()));
+        return found->second;
     }
 };
 
-ArchiveReader::ArchiveReader(path source) : implementation_(std::make_unique<Implementation>())
+ArchiveReader::ArchiveReader(std::filesystem::path source)
+    : implementation_(std::make_unique<Implementation>(std::move(source)))
 {
-    implementation_->source = std::move(source);
-    const path& file = implementation_->source;
-    probe("cannot read", file, O_RDONLY);
-    guarded("cannot read", file, [&] { implementation_->file = H5::H5File(file.string(), H5F_ACC_RDONLY); });
 }
 
 ArchiveReader::~ArchiveReader() = default;
+ArchiveReader::ArchiveReader(ArchiveReader&&) noexcept = default;
+ArchiveReader& ArchiveReader::operator=(ArchiveReader&&) noexcept = default;
+
+const path& ArchiveReader::file() const
+{
+    return implementation_->source;
+}
 
 bool ArchiveReader::has(const std::string& name) const
 {
-    return !name.empty() && implementation_->has(name);
+    return implementation_->entries.contains(group_ + name);
 }
 
-std::vector<double> ArchiveReader::reals(const std::string& name) const
+std::size_t ArchiveReader::length_of(const std::string& name, StoredKind kind, std::size_t numbers_per_element) const
 {
-    return implementation_->get<double>(name, H5T_FLOAT, "an array of reals");
+    const std::uint64_t count = implementation_->find(group_ + name, kind).count;
+    if (count % numbers_per_element != 0)
+        throw ArchiveError(fmt::format("\"{}{}\" in {} has {} numbers, which are no list of {} each", group_, name,
+                                       file().string(), count, numbers_per_element));
+    return count / numbers_per_element;
 }
 
-std::vector<std::int64_t> ArchiveReader::integers(const std::string& name) const
+void ArchiveReader::take(const std::string& name, StoredKind kind, void* numbers, std::size_t count) const
 {
-    return implementation_->get<std::int64_t>(name, H5T_INTEGER, "an array of integers");
+    const Implementation::Entry& entry = implementation_->find(group_ + name, kind);
+    if (entry.count != count)
+        refuse_length(name, entry.count, count, count);
+    if (count == 0)
+        return;
+    implementation_->read(numbers, count * size_of(kind), entry.offset);
+    if (kind == StoredKind::real && !any_reals_ && !all_finite<double>(numbers, count))
+        throw ArchiveError(fmt::format("\"{}{}\" in {} has values that are not finite", group_, name, file().string()));
 }
 
-std::vector<std::uint8_t> ArchiveReader::bytes(const std::string& name) const
+void ArchiveReader::refuse_length(const std::string& name, std::size_t found, std::size_t least, std::size_t most) const
 {
-    return implementation_->get<std::uint8_t>(name, H5T_INTEGER, "an array of bytes");
-}
-
-void ArchiveReader::read_parts(const std::string& name, std::span<const std::span<double>> parts) const
-{
-    const H5::DataSet dataset = implementation_->open_array(name, H5T_FLOAT, sizeof(double), "an array of reals");
-    const path& source = implementation_->source;
-    guarded(fmt::format("cannot read \"{}\" from", name), source, [&] {
-        const auto stored = static_cast<hsize_t>(dataset.getSpace().getSimpleExtentNpoints());
-        if (stored != length(parts))
-            throw std::runtime_error(
-                fmt::format("\"{}\" in {} has {} values instead of {}", name, source.string(), stored, length(parts)));
-        for_slices(dataset, parts, [&](auto part, const H5::DataSpace& there, const H5::DataSpace& here) {
-            dataset.read(part.data(), stored_type<double>(), here, there);
-        });
-    });
-}
-
-std::string ArchiveReader::text(const std::string& name) const
-{
-    const H5::DataSet dataset = implementation_->open(name, H5T_STRING, "a text");
-    return guarded(fmt::format("cannot read \"{}\" from", name), implementation_->source, [&] {
-        if (dataset.getSpace().getSimpleExtentType() == H5S_NULL)
-            return std::string();
-        const H5::StrType type = dataset.getStrType();
-        std::string text(type.getSize(), '\0');
-        dataset.read(text.data(), type);
-        return text;
-    });
+    throw ArchiveError(fmt::format("\"{}{}\" in {} has {} values instead of {}", group_, name, file().string(), found,
+                                   least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most)));
 }
 
 } // namespace periporo

@@ -1,41 +1,19 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Everything a run needs to go on as if it had never stopped, to the last bit.
+// The checkpoints of a run: the newest and the one before it, so that at every instant one of them is sound.
 #pragma once
 
-#include "contact/contact_forces.hpp"
-#include "model/model.hpp"
-#include "time/dynamics.hpp"
-#include "time/rest.hpp"
-#include "time/stable_step.hpp"
+#include "io/archive.hpp"
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace periporo {
-
-/// Where a run stands in its stages.
-struct RunPosition {
-    std::uint64_t stage = 0;
-    std::uint64_t stage_step = 0;           ///< steps done in the stage
-    std::uint64_t step = 0;                 ///< steps done in all stages
-    double time = 0.0;                      ///< since the first dynamic stage began [s]
-    double stage_start = 0.0;               ///< `time` when the stage began [s]
-    double time_step = 0.0;                 ///< [s]
-    std::uint64_t next_history = 0;         ///< index of the next history row
-    std::vector<std::uint64_t> next_output; ///< for each output, index of its next snapshot
-    double wall_seconds = 0.0;              ///< spent so far
-    bool ledger_open = false;
-    double error_before = 0.0; ///< of the energy ledger when the last quasi-static stage ended [J]
-    RestCriterion::State rest; ///< of the stage
-    std::string stage_reports; ///< JSON of the stages that are done
-    std::string inputs;        ///< InputHashes::text() of the files that the run has read
-};
 
 /// A checkpoint that this case cannot go on from: the user's input is wrong.
 class ForeignCheckpoint : public std::runtime_error {
@@ -43,26 +21,37 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-struct CheckpointParts {
-    Model& model;
-    const ForceState& force_state;
-    ContactForces& contact;
-    Dynamics& dynamics;
-    FrequencyEstimate& frequency;
-    RunPosition& position;
-    WaterCourse& water;
+/// Names of the files in the folder of a run.
+inline constexpr const char* checkpoint_name = "checkpoint.bin";
+inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.bin";
+inline constexpr const char* damaged_checkpoint_name = "checkpoint.damaged.bin";
+
+/// Writes a checkpoint aside, brings it to the disk, and renames the newest to the previous one and it to the newest.
+/// @param resolved_case the whole case, by which a checkpoint is known
+/// @param save adds all that the run needs to go on
+/// @throws ArchiveError naming the file and the reason
+void write_checkpoint(const std::filesystem::path& folder, const std::string& resolved_case,
+                      const std::function<void(ArchiveWriter&)>& save);
+
+/// Is there a checkpoint in the folder, sound or not?
+bool has_checkpoint(const std::filesystem::path& folder);
+
+/// The newest sound checkpoint of a folder.
+struct FoundCheckpoint {
+    std::optional<ArchiveReader> archive; ///< none: there is no checkpoint
+    std::vector<std::string> refused;     ///< what is wrong with newer ones, with their names
 };
 
-/// Writes `file` aside and renames it.
-void write_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts,
-                      const std::string& resolved_case);
+/// Changes nothing.
+/// @throws ForeignCheckpoint when the checkpoint was written by another version of the program, or for another case: it
+/// names the first key that differs
+/// @throws ArchiveError naming both files when both are damaged
+FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const std::string& resolved_case);
 
-/// Restores a model that was built from the same case; constraints of the stage remain to be set.
-/// @param enter_stage gives the model the images and obstacles of a stage
-/// @param contact_slack as for ContactForces::find_candidates [m]
-/// @throws ForeignCheckpoint when it was written by another case or another version of the program, std::runtime_error
-/// when it cannot be read.
-void read_checkpoint(const std::filesystem::path& file, const CheckpointParts& parts, const std::string& resolved_case,
-                     double contact_slack, const std::function<void(std::uint64_t stage)>& enter_stage);
+/// Renames a newest checkpoint that was refused, so that it does not take the place of the previous, sound one.
+void set_damaged_checkpoint_aside(const std::filesystem::path& folder);
+
+/// Removes the checkpoints of a run that is complete.
+void remove_checkpoints(const std::filesystem::path& folder);
 
 } // namespace periporo

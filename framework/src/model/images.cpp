@@ -120,16 +120,17 @@ std::vector<std::uint32_t> IsometryTable::active(const Vector3& lower, const Vec
     return found;
 }
 
-void IsometryTable::restore(const std::vector<Isometry>& isometries)
+void IsometryTable::resume()
 {
-    isometries_.clear();
-    inverses_.clear();
-    for (const Isometry& isometry : isometries) {
-        isometries_.push_back(isometry);
-        inverses_.push_back(std::numeric_limits<std::uint32_t>::max());
-    }
-    for (std::size_t n = 0; n < isometries.size(); ++n)
-        number_of(isometries[n]);
+    const auto is_isometry = [](const Isometry& isometry) {
+        return (isometry.rotation * isometry.rotation.transpose()).isIdentity(1e-9);
+    };
+    if (isometries_.empty() || !same(isometries_.front(), {}, 1.0) || !std::ranges::all_of(isometries_, is_isometry))
+        throw std::runtime_error("the table of isometries has others among them");
+    const std::size_t count = isometries_.size();
+    inverses_.assign(count, std::numeric_limits<std::uint32_t>::max());
+    for (std::size_t n = 0; n < count; ++n)
+        number_of(Isometry(isometries_[n]));
 }
 
 std::vector<Image> find_images(std::span<const Vector3> positions, IsometryTable& isometries, double reach)

@@ -4,6 +4,7 @@
 // Images of points under isometries: what symmetry planes and periodic pairs are to the operator.
 #pragma once
 
+#include "io/archive.hpp"
 #include "periporo/tensor.hpp"
 
 #include <Eigen/Core>
@@ -31,6 +32,8 @@ struct Isometry {
     static Isometry reflection(int axis, double offset);
     static Isometry shift(int axis, double distance);
 };
+template <>
+inline constexpr std::size_t reals_of<Isometry> = 12;
 
 /// Isometries by number. A number, once given, keeps its meaning for the whole run, so that bonds to images can be
 /// recognised from one refresh to the next. Number 0 is the identity.
@@ -52,8 +55,15 @@ public:
     const Isometry& operator[](std::uint32_t number) const { return isometries_[number]; }
     std::uint32_t inverse(std::uint32_t number) const { return inverses_[number]; }
     std::size_t size() const { return isometries_.size(); }
-    /// Adds all of `isometries` in this order, as a checkpoint needs.
-    void restore(const std::vector<Isometry>& isometries);
+    /// Isometries in the order of their numbers: those in use now are found again under the number that they had.
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        visit("isometries", at_most(self.isometries_, 65536));
+    }
+    /// Sets what follows from the members.
+    /// @throws std::runtime_error when they are no isometries, or the first is not the identity
+    void resume();
 
 private:
     std::uint32_t number_of(const Isometry& isometry);

@@ -65,6 +65,15 @@ struct BondData {
     std::vector<std::uint32_t> first; ///< of a point, in the states of its block
     ActiveBonds active;
 
+    /// Lengths are those that the families ask for.
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        for (std::size_t block = 0; block < self.states.size(); ++block)
+            visit("states/" + std::to_string(block), any_reals(self.states[block]));
+        visit("active", self.active);
+    }
+
     double* state(std::size_t point) { return states[point / block_size].data() + first[point]; }
     const double* state(std::size_t point) const { return states[point / block_size].data() + first[point]; }
     /// Bytes held.
@@ -143,6 +152,20 @@ struct Model {
     std::vector<std::uint8_t> free_grain; ///< 1: no active bond
     OperatorSamples operator_samples;     ///< of this evaluation, or since they were set to zero
 
+    /// What a checkpoint keeps besides families and bonds.
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        visit.part("points", self.points);
+        visit("refresh_position", exactly(self.refresh_position, self.size()));
+        visit("point_state", any_reals(self.point_state));
+        visit("inactive_bonds", self.inactive_bonds);
+        visit("free_grain", self.free_grain);
+        visit.part("images", self.isometries);
+        for (std::size_t o = 0; o < self.obstacles.size(); ++o)
+            visit("obstacle/" + std::to_string(o) + "/shift", self.obstacles[o].shift);
+    }
+
     std::size_t size() const { return points.size(); }
     const Body& body_of(std::size_t point) const { return bodies[points.body[point]]; }
     std::size_t rows(std::size_t point) const { return body_of(point).rows(); }
@@ -183,7 +206,7 @@ struct Model {
     /// @return those until now
     /// @throws what Families::find() throws; the model is then what it was
     Replaced renew_families(std::span<const ClosedPair> closed = {});
-    /// The same with families that a checkpoint kept.
+    /// The same with families that a checkpoint kept, for the positions that they were found from.
     void restore_families(const Families::Kept& kept);
     /// Copies positions, velocities and volumes of points and images to the records.
     void update_records();

@@ -4,6 +4,7 @@
 // The material points of all bodies, as a structure of arrays.
 #pragma once
 
+#include "io/archive.hpp"
 #include "periporo/tensor.hpp"
 
 #include <algorithm>
@@ -49,6 +50,20 @@ struct Points {
     std::vector<std::uint32_t> body;       ///< index of the body
     std::vector<std::int64_t> id;          ///< number given by the geometry, body by body
 
+    /// What a checkpoint keeps: the other members follow from the case.
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        visit("position", self.position);
+        visit("velocity", self.velocity);
+        visit("force", self.force);
+        visit("volume", self.volume);
+        visit("jacobian", self.jacobian);
+        visit("mass", self.mass);
+        visit("pore_pressure", self.pore_pressure);
+        visit("saturation", self.saturation);
+    }
+
     std::size_t size() const { return position.size(); }
     double suction(std::size_t point) const { return suction_of(pore_pressure[point]); } ///< [Pa]
 
@@ -83,6 +98,20 @@ struct WaterCourse {
     std::vector<double> level_after;
     std::vector<double> lowest; ///< height of the bottom of the body when its change began [m]
     std::vector<double> done;   ///< share of the change that is done [-]
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        visit("pressure_before", self.pressure_before);
+        visit("saturation_before", self.saturation_before);
+        visit("pressure_after", self.pressure_after);
+        visit("saturation_after", self.saturation_after);
+        visit("soaked", self.soaked);
+        visit("level_before", any_reals(self.level_before));
+        visit("level_after", any_reals(self.level_after));
+        visit("lowest", any_reals(self.lowest));
+        visit("done", self.done);
+    }
 };
 
 } // namespace periporo

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace periporo {
 namespace {
@@ -72,16 +73,9 @@ void hand_out_point_variables(Model& model)
         });
 }
 
-} // namespace
-
-void find_first_families(Model& model, const ForceState& force_state, const Families::Kept* kept)
+/// Bonds of families that have just been found, with the states of their points.
+void begin_bonds(Model& model)
 {
-    model.has_sub_horizons = force_state.uses_sub_horizons();
-    model.has_shared_bonds = force_state.shares_bonds();
-    if (kept != nullptr)
-        model.restore_families(*kept);
-    else
-        model.find_families();
     model.bonds.states.resize(model.halos.blocks());
     model.bonds.first.resize(model.size());
     FirstException failure;
@@ -100,6 +94,30 @@ void find_first_families(Model& model, const ForceState& force_state, const Fami
         });
     failure.rethrow();
     model.update_records();
+}
+
+void follow_force_state(Model& model, const ForceState& force_state)
+{
+    model.has_sub_horizons = force_state.uses_sub_horizons();
+    model.has_shared_bonds = force_state.shares_bonds();
+}
+
+} // namespace
+
+void find_first_families(Model& model, const ForceState& force_state)
+{
+    follow_force_state(model, force_state);
+    model.find_families();
+    begin_bonds(model);
+}
+
+void resume_families(Model& model, const ForceState& force_state, const Families::Kept& kept)
+{
+    follow_force_state(model, force_state);
+    const std::vector<Vector3> now = std::exchange(model.points.position, model.refresh_position);
+    model.restore_families(kept);
+    begin_bonds(model);
+    model.points.position = now;
 }
 
 void collect_point_variables(Model& model, const ForceState& force_state)

@@ -11,8 +11,12 @@ namespace periporo {
 
 /// Families of a model that has none yet, with what the force state asks for; all bonds start with zero stress and
 /// initial state variables.
-/// @param kept the families that a checkpoint kept, null: those of the positions as they are
-void find_first_families(Model& model, const ForceState& force_state, const Families::Kept* kept = nullptr);
+void find_first_families(Model& model, const ForceState& force_state);
+
+/// The same with families that a checkpoint kept, for the positions of the last refresh. Records have these positions
+/// until Model::update_records().
+/// @throws std::runtime_error when they do not fit the points
+void resume_families(Model& model, const ForceState& force_state, const Families::Kept& kept);
 
 /// Families from the current positions, and those until now (FamilyRule). A bond that was active and is still there
 /// keeps its state; any other bond (i,j) takes the mean of the point states of i and j, a point state being the

@@ -46,12 +46,15 @@ struct Sample {
     CaseDescription description;
     double coarser = 1.0; ///< its spacing over that of the case
     RunOptions options = {};
+    InterruptionGuard interruption;
     std::unique_ptr<Simulation> simulation = nullptr;
 };
 
 std::unique_ptr<Sample> prepared(const CaseDescription& description, const PluginRegistry& registry, double coarser)
 {
-    auto sample = std::make_unique<Sample>(Sample{description, coarser});
+    auto sample = std::make_unique<Sample>();
+    sample->description = description;
+    sample->coarser = coarser;
     sample->description.discretization.spacing *= coarser;
     sample->description.time.step.reset();
     if (coarser > 1.0) // which need not divide the edges of a body
@@ -59,7 +62,8 @@ std::unique_ptr<Sample> prepared(const CaseDescription& description, const Plugi
             body.fill.align = "axes";
     sample->options.quiet = true;
     const auto silent = std::make_shared<spdlog::logger>("explain", std::make_shared<spdlog::sinks::null_sink_mt>());
-    sample->simulation = std::make_unique<Simulation>(sample->description, registry, sample->options, silent);
+    sample->simulation = std::make_unique<Simulation>(sample->description, registry, sample->options,
+                                                      sample->interruption, silent);
     sample->simulation->prepare();
     return sample;
 }

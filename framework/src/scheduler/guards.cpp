@@ -59,9 +59,14 @@ std::string way_out(const CaseDescription& description)
 
 } // namespace
 
+double lost_distance(const Model& model)
+{
+    return 1e3 * model.horizon;
+}
+
 std::string lost_point(const Model& model)
 {
-    const double far = 1e3 * model.horizon;
+    const double far = lost_distance(model);
     for (std::size_t i = 0; i < model.size(); ++i) {
         const Vector3& x = model.points.position[i];
         const bool finite = x.allFinite() && model.points.velocity[i].allFinite();

@@ -12,6 +12,9 @@
 
 namespace periporo {
 
+/// A point that is so far from where it began is lost: 1000 horizons [m].
+double lost_distance(const Model& model);
+
 /// Names a point that is not finite or farther than 1000 horizons from where it began. Each guard returns an empty text
 /// when nothing is wrong.
 std::string lost_point(const Model& model);

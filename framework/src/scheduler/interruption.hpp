@@ -1,14 +1,18 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Stops that come from outside: Ctrl-C and SIGTERM.
+// Stops that come from outside: Ctrl-C, SIGTERM, a terminal that hangs up, and the end of the processor time.
 #pragma once
 
 #include <signal.h>
 
+#include <array>
+
 namespace periporo {
 
-/// While it lives, the first SIGINT or SIGTERM is noted and a second one ends the process as usual.
+/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGXCPU stop the run: while the run is set up at once, with exit status
+/// 130, for there is nothing to keep; after that at the next step. A second SIGINT, SIGTERM or SIGHUP ends the process
+/// as usual. A SIGHUP that was ignored before, as nohup does it, stays ignored.
 class InterruptionGuard {
 public:
     InterruptionGuard();
@@ -16,11 +20,15 @@ public:
     InterruptionGuard(const InterruptionGuard&) = delete;
     InterruptionGuard& operator=(const InterruptionGuard&) = delete;
 
-    bool requested() const;
+    /// From now on a signal is noted and ends nothing by itself.
+    void end_set_up();
+    /// Name of the signal that came, or null.
+    const char* signal() const;
+
+    static constexpr std::array stops{SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
 private:
-    struct sigaction before_interrupt_;
-    struct sigaction before_terminate_;
+    std::array<struct sigaction, stops.size()> before_;
 };
 
 } // namespace periporo

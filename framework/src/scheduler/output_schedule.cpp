@@ -67,19 +67,17 @@ Snapshot OutputSchedule::snapshot(const Model& model, const ForceState& force_st
 }
 
 void OutputSchedule::write_due(const Model& model, const ForceState& force_state, const Dynamics& dynamics,
-                               RunPosition& at, const std::string& stage)
+                               const RunPosition& at, const std::string& stage)
 {
     const double late = at.time * (1.0 + round_off);
-    if (late >= static_cast<double>(at.next_history) * history_every_) {
+    if (late >= static_cast<double>(next_history_) * history_every_) {
         write_history(model, dynamics, at);
-        at.next_history = static_cast<std::uint64_t>(std::floor(late / history_every_)) + 1;
+        next_history_ = static_cast<std::uint64_t>(std::floor(late / history_every_)) + 1;
     }
-    at.next_output.resize(outputs_.size(), 0);
     Snapshot taken;
     bool have = false;
-    for (std::size_t o = 0; o < outputs_.size(); ++o) {
-        Output& output = outputs_[o];
-        std::uint64_t& next = at.next_output[o];
+    for (Output& output : outputs_) {
+        std::uint64_t& next = output.next;
         if (next >= output.times.size() || late < output.times[next])
             continue;
         while (next < output.times.size() && late >= output.times[next])

@@ -31,10 +31,8 @@ void Progress::update(const std::function<std::string()>& text)
     if (now - last_ < (terminal_ ? on_terminal : in_log))
         return;
     last_ = now;
-    if (terminal_)
-        fmt::print(stderr, "\r\033[K{}", text());
-    else
-        fmt::print(stderr, "{}\n", text());
+    // A terminal that is gone is no error.
+    std::fputs((terminal_ ? "\r\033[K" + text() : text() + '\n').c_str(), stderr);
     std::fflush(stderr);
     shown_ = terminal_;
 }
@@ -42,7 +40,7 @@ void Progress::update(const std::function<std::string()>& text)
 void Progress::clear()
 {
     if (shown_)
-        fmt::print(stderr, "\r\033[K");
+        std::fputs("\r\033[K", stderr);
     shown_ = false;
 }
 

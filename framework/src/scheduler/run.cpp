@@ -3,14 +3,16 @@
 //
 #include "scheduler/run.hpp"
 
+#include "io/checkpoint.hpp"
 #include "periporo/file.hpp"
 #include "scheduler/build_model.hpp"
+#include "scheduler/interruption.hpp"
 #include "scheduler/run_log.hpp"
 #include "scheduler/set_up_picture.hpp"
 #include "scheduler/simulation.hpp"
 #include "scheduler/size_estimate.hpp"
 
-#include <fstream>
+#include <fmt/format.h>
 #include <omp.h>
 #include <spdlog/sinks/ringbuffer_sink.h>
 
@@ -18,6 +20,10 @@ namespace periporo {
 
 RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options)
 {
+    FoundCheckpoint checkpoint;
+    if (options.resume)
+        checkpoint = find_checkpoint(options.directory, description.resolved);
+    InterruptionGuard interruption;
     if (options.threads > 0)
         omp_set_num_threads(options.threads);
     RunLog log(options.quiet);
@@ -26,14 +32,21 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
             log.logger()->warn(warning);
         log.logger()->info("{}: '{}' into {}", description.file.string(), description.title,
                            options.directory.string());
-        Simulation simulation(description, registry, options, log.logger());
-        simulation.prepare();
+        for (const std::string& refused : checkpoint.refused)
+            log.logger()->warn("{}; going on from the older checkpoint, {}", refused,
+                               checkpoint.archive->file().string());
+        if (options.resume && !checkpoint.archive)
+            log.logger()->warn("{} holds no checkpoint yet; starting from the beginning", options.directory.string());
+        Simulation simulation(description, registry, options, interruption, log.logger());
+        simulation.prepare(std::move(checkpoint.archive));
         if (options.take_folder)
             options.take_folder();
         else
             std::filesystem::create_directories(options.directory);
         log.open(options.directory / "run.log", options.resume);
         write_whole(options.directory / "case.toml", description.resolved);
+        if (!checkpoint.refused.empty())
+            set_damaged_checkpoint_aside(options.directory);
         return simulation.run();
     } catch (const std::exception& error) {
         log.add_to_file(error.what());
@@ -48,7 +61,9 @@ std::vector<std::string> check_case(const CaseDescription& description, const Pl
     warnings->set_pattern("%v");
     RunOptions options;
     options.quiet = true;
-    Simulation(description, registry, options, std::make_shared<spdlog::logger>("check", warnings)).prepare();
+    InterruptionGuard interruption;
+    Simulation(description, registry, options, interruption, std::make_shared<spdlog::logger>("check", warnings))
+        .prepare();
     return warnings->last_formatted();
 }
 

@@ -7,8 +7,10 @@
 #include "case/description.hpp"
 #include "plugins/registry.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace periporo {
@@ -20,16 +22,19 @@ struct RunOptions {
     bool quiet = false;              ///< no progress on the terminal; the log file is written all the same
     /// Called when nothing is wrong with the case and its model is built, before anything is written: frees the folder.
     std::function<void()> take_folder;
+    /// Stop with a checkpoint after so many steps of all stages; none: run to the end.
+    std::optional<std::uint64_t> stop_after = {};
 };
 
 enum class RunOutcome {
     complete,   ///< exit status 0
-    interrupted ///< SIGINT or SIGTERM came; a checkpoint was written, exit status 130
+    interrupted ///< stopped by a signal or as asked; a checkpoint was written, exit status 130
 };
 
 /// Runs the case. Writes log, results, checkpoint and summary into the directory.
 /// @throws std::exception with stage, step, time, point and position when the run goes wrong (exit status 1).
-/// @throws PluginError or CaseError when the fault is the user's (exit status 2); nothing is written then.
+/// @throws PluginError or CaseError when the fault is the user's (exit status 2), ForeignCheckpoint when `resume` finds the
+/// run of another case, version or input; nothing has been written then.
 RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options);
 
 /// Builds all that a run of the case would build, short of its first step, and writes nothing.

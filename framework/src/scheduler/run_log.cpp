@@ -19,6 +19,8 @@ RunLog::RunLog(bool quiet) : early_(std::make_shared<spdlog::sinks::ringbuffer_s
     terminal->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
     logger_ = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{early_, terminal});
     logger_->flush_on(spdlog::level::info);
+    // A log that cannot be written is no reason to end: what a run needs on the disk tells it by its own error.
+    logger_->set_error_handler([](const std::string&) {});
 }
 
 void RunLog::open(const std::filesystem::path& file, bool append)

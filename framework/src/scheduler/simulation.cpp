@@ -4,7 +4,7 @@
 #include "scheduler/simulation.hpp"
 
 #include "case/refusal.hpp"
-#include "io/archive.hpp"
+#include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
@@ -48,11 +48,27 @@ bool is_quasi_static(const StageDescription& stage)
     return stage.type == "quasi_static";
 }
 
+/// Reports of the stages that are done, as a checkpoint has them.
+nlohmann::json parse_reports(const std::string& text, const std::filesystem::path& file)
+{
+    constexpr int deepest = 16; // of a report; a text without end of depth is not written out again
+    bool deep = false;
+    const auto look = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+        deep = deep || depth > deepest;
+        return !deep;
+    };
+    nlohmann::json reports = nlohmann::json::parse(text, look, false);
+    if (deep || !reports.is_array())
+        throw ArchiveError(fmt::format("\"stage_reports\" in {} is no list of reports", file.string()));
+    return reports;
+}
+
 } // namespace
 
 Simulation::Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
-                       std::shared_ptr<spdlog::logger> log)
-    : description_(description), registry_(registry), options_(options), log_(std::move(log)),
+                       InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log)
+    : description_(description), registry_(registry), options_(options), interruption_(interruption),
+      log_(std::move(log)),
       force_state_(
           make_force_state(description.operators.force_state,
                            Influence::by_name(description.operators.influence, description.discretization.horizon()))),
@@ -69,7 +85,6 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
     });
     progress_.clear();
     inputs_ = InputHashes::of(description, registry); // after all plugins have loaded what they need
-    at_.inputs = inputs_.text();
     set_obstacles(built.model, description, description.stages.front());
     for (const std::string& warning : check_model(built, description, registry))
         log_->warn(warning);
@@ -85,40 +100,42 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
         log_->info(remark);
 }
 
-void Simulation::prepare()
+void Simulation::prepare(std::optional<ArchiveReader> checkpoint)
 {
-    restore();
+    resumed_ = checkpoint.has_value();
+    if (resumed_)
+        restore(*checkpoint);
     refuse_failures(description_, "stage.0", [this] {
-        if (!resuming_)
+        if (!resumed_)
             begin_stage();
         check_fields(description_, registry_, model_, *force_state_);
     });
-    is_prepared_ = true;
 }
 
 RunOutcome Simulation::run()
 {
+    interruption_.end_set_up();
+    if (resumed_ && options_.stop_after && at_.step >= *options_.stop_after) {
+        log_->warn("the run has done {} steps already; --stop-after {} stops it here", at_.step, *options_.stop_after);
+        return RunOutcome::interrupted;
+    }
     last_checkpoint_ = std::chrono::steady_clock::now();
-    note_names(options_.directory, outputs_.files(), !resuming_);
+    note_names(options_.directory, outputs_.files(), !resumed_);
     outputs_.begin(model_, describe_run());
     writes_ = true;
     try {
-        for (; at_.stage < description_.stages.size(); ++at_.stage) {
+        while (at_.stage < description_.stages.size()) {
             const StageDescription& stage = description_.stages[at_.stage];
-            if (!is_prepared_)
+            if (!at_.begun)
                 begin_stage();
-            is_prepared_ = false;
             open_history();
-            if (!(is_quasi_static(stage) ? quasi_static(stage) : dynamic(stage))) {
-                progress_.clear();
-                checkpoint();
-                outputs_.finish(false);
-                write_summary("interrupted", "");
-                log_->warn("interrupted in stage '{}' after {} steps, time {:.6g} s; --resume goes on from here",
-                           stage.name, at_.step, at_.time);
-                return RunOutcome::interrupted;
-            }
+            if (!(is_quasi_static(stage) ? quasi_static(stage) : dynamic(stage)))
+                return stop();
             end_stage();
+            at_.begun = false;
+            ++at_.stage;
+            if (at_.stage < description_.stages.size() && !reason_to_stop().empty())
+                return stop();
         }
         progress_.clear();
         outputs_.finish(true);
@@ -134,7 +151,7 @@ RunOutcome Simulation::run()
         fail(error.what());
     }
     write_summary("complete", "");
-    std::filesystem::remove(options_.directory / "checkpoint.h5");
+    remove_checkpoints(options_.directory);
     outputs_.clean_up();
     return RunOutcome::complete;
 }
@@ -167,6 +184,17 @@ double Simulation::seconds_of_a_step(double budget)
     return (wall_seconds() - began) / steps;
 }
 
+RunOutcome Simulation::stop()
+{
+    progress_.clear();
+    checkpoint();
+    outputs_.finish(false);
+    write_summary("interrupted", "");
+    log_->warn("{} interrupted the run {} stage '{}' after {} steps, time {:.6g} s; --resume goes on from here",
+               reason_to_stop(), at_.begun ? "in" : "before", description_.stages[at_.stage].name, at_.step, at_.time);
+    return RunOutcome::interrupted;
+}
+
 RunDescription Simulation::describe_run() const
 {
     RunDescription run;
@@ -174,40 +202,35 @@ RunDescription Simulation::describe_run() const
     run.title = description_.title;
     run.resolved_case = description_.resolved;
     run.provenance = provenance(inputs_, options_.threads);
-    run.resumed = resuming_;
+    run.resumed = resumed_;
     run.resumed_step = at_.step;
     run.warn = [this](const std::string& text) { log_->warn(text); };
     return run;
 }
 
-void Simulation::restore()
+RunState Simulation::state(RunPosition& position)
 {
-    const std::filesystem::path file = options_.directory / "checkpoint.h5";
-    if (!options_.resume)
-        return;
-    if (!std::filesystem::exists(file)) {
-        log_->warn("nothing to resume in {}: no checkpoint.h5; starting from the beginning",
-                   options_.directory.string());
-        return;
-    }
-    const ArchiveReader archive(file);
-    const std::string difference =
-        archive.has("inputs") ? inputs_.difference_from(InputHashes::from_text(archive.text("inputs"))) : "";
-    if (!difference.empty())
+    return {model_, *force_state_, contact_, dynamics_, frequency_, water_, outputs_, position};
+}
+
+void Simulation::restore(ArchiveReader& checkpoint)
+{
+    constexpr std::size_t longest_inputs = std::size_t{64} << 20; // [bytes]
+    std::string inputs;
+    checkpoint("inputs", at_most(inputs, longest_inputs));
+    if (const std::string difference = inputs_.difference_from(InputHashes::from_text(inputs)); !difference.empty())
         throw ForeignCheckpoint(fmt::format("{} cannot go on: {}; bring back the file as it was, or start anew with "
                                             "--overwrite",
-                                            file.string(), difference));
-    WaterCourse water;
-    read_checkpoint(file, {model_, *force_state_, contact_, dynamics_, frequency_, at_, water}, description_.resolved,
-                    settings_of(description_).skin,
-                    [this](std::uint64_t stage) { enter_stage(description_.stages.at(stage)); });
-    water_.restore(model_, std::move(water), description_.stages[at_.stage]);
-    dynamics_.hold(held_directions(model_, description_, held_regions_, description_.stages[at_.stage]));
-    reports_ = nlohmann::json::parse(at_.stage_reports);
-    resuming_ = true;
+                                            checkpoint.file().string(), difference));
+    restore_run(checkpoint, state(at_), description_.stages, settings_of(description_).skin,
+                [this](std::uint64_t stage) { enter_stage(description_.stages.at(stage)); });
+    const StageDescription& stage = description_.stages.at(at_.stage_of_model());
+    water_.resume(model_, stage);
+    dynamics_.hold(held_directions(model_, description_, held_regions_, stage));
+    reports_ = parse_reports(at_.stage_reports, checkpoint.file());
     checkpoint_step_ = at_.step;
-    log_->info("resumed in stage '{}' at step {}, time {:.6g} s", description_.stages[at_.stage].name, at_.step,
-               at_.time);
+    log_->info("resumed {} stage '{}' at step {}, time {:.6g} s", at_.begun ? "in" : "before",
+               description_.stages[at_.stage].name, at_.step, at_.time);
 }
 
 void Simulation::enter_stage(const StageDescription& stage)
@@ -219,6 +242,7 @@ void Simulation::enter_stage(const StageDescription& stage)
 void Simulation::begin_stage()
 {
     const StageDescription& stage = description_.stages[at_.stage];
+    at_.begun = true;
     at_.stage_step = 0;
     at_.rest = {};
     at_.stage_start = at_.time;
@@ -316,7 +340,7 @@ void Simulation::renew_step()
         stable.step *= local_damping_factor(stage.damping);
         stable.limit *= local_damping_factor(stage.damping);
     }
-    ++estimates_;
+    ++at_.estimates;
     if (given && *given > stable.limit)
         fail(fmt::format("the [time] step of {:.4g} s is not stable, the largest stable one is {:.4g} s; leave [time] "
                          "step out, then the step is computed ({:.4g} s here) and follows what the bodies do, or give "
@@ -370,7 +394,7 @@ bool Simulation::quasi_static(const StageDescription& stage)
     // At rest means slower than one would become by falling over one spacing, by the tolerance of the residual. Without
     // gravity the unbalanced force at the start sets the acceleration.
     const auto rest = [&] { return stage.residual * std::sqrt(dynamics_.acceleration_scale() * model_.spacing); };
-    while (at_.stage_step == 0 || dynamics_.residual() > stage.residual || dynamics_.mean_speed() > rest()) {
+    for (bool settled = false; !settled;) {
         if (at_.stage_step >= static_cast<std::uint64_t>(stage.maximum_steps))
             fail(fmt::format("no equilibrium after {} steps: residual {:.2e} (wanted {:.2e}), mean speed {:.2e} m/s "
                              "(wanted {:.2e}); raise maximum_steps, or until.residual, or look for a body that nothing "
@@ -381,7 +405,8 @@ bool Simulation::quasi_static(const StageDescription& stage)
             return fmt::format("{}: step {}, residual {:.2e} of {:.2e}", stage.name, at_.stage_step,
                                dynamics_.residual(), stage.residual);
         });
-        if (stop_here())
+        settled = dynamics_.residual() <= stage.residual && dynamics_.mean_speed() <= rest();
+        if (!settled && stop_here())
             return false;
     }
     stage_end_ = "in equilibrium";
@@ -404,7 +429,7 @@ bool Simulation::dynamic(const StageDescription& stage)
             stage_end_ = "at rest";
             return true;
         }
-        // A stage that is over is not interrupted: what is written at its end is written once.
+        // A stage that is over is not interrupted but ended: what is written at its end is written once.
         if (at_.time < end && stop_here())
             return false;
     }
@@ -472,19 +497,33 @@ bool Simulation::stop_here()
     const std::chrono::duration<double> every(std::max(description_.checkpoint_every, 20.0 * checkpoint_took_.count()));
     if (description_.checkpoint_every == 0.0 || std::chrono::steady_clock::now() - last_checkpoint_ > every)
         dynamics_.times().time(Phase::output, [&] { checkpoint(); });
-    return interruption_.requested();
+    return !reason_to_stop().empty();
+}
+
+std::string Simulation::reason_to_stop() const
+{
+    if (const char* signal = interruption_.signal())
+        return signal;
+    if (options_.stop_after && at_.step >= *options_.stop_after)
+        return fmt::format("--stop-after {}", *options_.stop_after);
+    return {};
 }
 
 void Simulation::checkpoint()
 {
     const auto began = std::chrono::steady_clock::now();
+    // A state that no run can go on from must not take the place of an earlier one.
+    if (const std::string lost = lost_point(model_); !lost.empty())
+        fail(lost);
     outputs_.flush(at_.step);
     RunPosition position = at_;
     position.wall_seconds = wall_seconds();
     position.stage_reports = reports_.dump();
-    WaterCourse water = water_.course();
-    write_checkpoint(options_.directory / "checkpoint.h5",
-                     {model_, *force_state_, contact_, dynamics_, frequency_, position, water}, description_.resolved);
+    write_checkpoint(options_.directory, description_.resolved,
+                     [&](ArchiveWriter& archive) {
+                         archive("inputs", inputs_.text());
+                         save_run(archive, state(position));
+                     });
     last_checkpoint_ = std::chrono::steady_clock::now();
     checkpoint_took_ = last_checkpoint_ - began;
     checkpoint_step_ = at_.step;
@@ -509,7 +548,7 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
     summary["outcome"] = outcome;
     summary["message"] = message;
     summary["steps"] = at_.step;
-    summary["step_estimates"] = estimates_;
+    summary["step_estimates"] = at_.estimates;
     summary["time"] = at_.time;
     summary["stages"] = reports_;
     summary["wall_seconds"] = wall_seconds();

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "contact/contact_forces.hpp"
-#include "io/checkpoint.hpp"
+#include "io/archive.hpp"
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
 #include "scheduler/input_hashes.hpp"
@@ -13,6 +13,8 @@
 #include "scheduler/output_schedule.hpp"
 #include "scheduler/progress.hpp"
 #include "scheduler/run.hpp"
+#include "scheduler/run_position.hpp"
+#include "scheduler/run_state.hpp"
 #include "time/dynamics.hpp"
 #include "time/stable_step.hpp"
 #include "water/water.hpp"
@@ -31,12 +33,12 @@ public:
     /// Builds the model.
     /// @throws CaseError, PluginError
     Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
-               std::shared_ptr<spdlog::logger> log);
+               InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log);
 
     /// Checks the model and does all that comes before the first step: families, initial stress, stable step; or what a
     /// checkpoint restores. Writes nothing.
-    /// @throws CaseError, or ForeignCheckpoint
-    void prepare();
+    /// @throws CaseError, ForeignCheckpoint, or ArchiveError
+    void prepare(std::optional<ArchiveReader> checkpoint = {});
     /// Runs all stages, or those that a checkpoint left over. To be called after prepare().
     RunOutcome run();
 
@@ -51,7 +53,9 @@ public:
 
 private:
     RunDescription describe_run() const;
-    void restore();
+    RunState state(RunPosition& position);
+    void restore(ArchiveReader& checkpoint);
+    RunOutcome stop();
     /// Gives the model the images and obstacles of a stage.
     void enter_stage(const StageDescription& stage);
     void begin_stage();
@@ -72,6 +76,9 @@ private:
     void check_motion();
     /// Fails, or warns of points that went through an obstacle in the last step.
     void check_crossings();
+    /// Why the run has to stop now, or nothing.
+    std::string reason_to_stop() const;
+    /// Writes a checkpoint when it is time for one. Does the run have to stop?
     bool stop_here();
     void checkpoint();
     double wall_seconds() const;
@@ -82,6 +89,7 @@ private:
     const CaseDescription& description_;
     const PluginRegistry& registry_;
     const RunOptions& options_;
+    InterruptionGuard& interruption_;
     std::shared_ptr<spdlog::logger> log_;
     Model model_;
     std::unique_ptr<ForceState> force_state_;
@@ -95,7 +103,6 @@ private:
     std::string stage_end_; ///< why the stage that has just ended did
     OutputSchedule outputs_;
     Progress progress_;
-    InterruptionGuard interruption_;
     std::vector<std::string> remarks_;
     nlohmann::json reports_ = nlohmann::json::array();
     std::chrono::steady_clock::time_point started_;
@@ -103,10 +110,8 @@ private:
     std::chrono::duration<double> checkpoint_took_{0.0};
     std::optional<std::uint64_t> checkpoint_step_; ///< of the last checkpoint
     std::uint64_t steps_here_ = 0;                 ///< in this process, for the speed
-    std::uint64_t estimates_ = 0;                  ///< of the stable step, in this process
-    bool resuming_ = false;
-    bool is_prepared_ = false; ///< the stage has begun, but not its first step
-    bool writes_ = false;      ///< results have been begun: failures leave a snapshot
+    bool resumed_ = false;
+    bool writes_ = false; ///< results have been begun: failures leave a snapshot
 };
 
 } // namespace periporo

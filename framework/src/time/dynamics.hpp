@@ -58,7 +58,7 @@ public:
     /// now on.
     void book(const ArrivedEnergy& arrived);
 
-    /// What a checkpoint must keep besides the model.
+    /// What lives from step to step besides the model.
     struct State {
         EnergyLedger ledger;
         double gravity_datum = 0.0; ///< gravity energy at the opening, and of later mass where it arrived [J]
@@ -69,9 +69,26 @@ public:
         std::uint64_t refreshes = 0;
         std::vector<double> buoyancy;        ///< of each point at the last evaluation, empty: never any [N]
         std::vector<Vector3> undamped_force; ///< of each point in the last damped step since start(), or none [N]
+
+        template <class Self, class Visit>
+        static void members(Self& self, Visit& visit, std::size_t points)
+        {
+            visit.part("ledger", self.ledger);
+            visit("gravity_datum", self.gravity_datum);
+            visit("residual", self.residual);
+            visit("force_scale", self.force_scale);
+            visit("force_squared_per_mass", self.force_squared_per_mass);
+            visit.part("powers", self.powers);
+            visit("refreshes", self.refreshes);
+            visit("buoyancy", empty_or(self.buoyancy, points));
+            visit("undamped_force", empty_or(self.undamped_force, points));
+        }
     };
-    const State& state() const { return state_; }
-    void restore(State state) { state_ = std::move(state); }
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        State::members(self.state_, visit, self.model_.size());
+    }
 
     /// |internal + contact + friction + gravity force|/|gravity force|, root sums over all points, without damping [-].
     /// Without gravity it is relative to the largest unbalanced force since start().

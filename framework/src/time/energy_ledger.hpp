@@ -20,6 +20,13 @@ struct ArrivedEnergy {
 struct ForcePower {
     double at_end = 0.0; ///< sum f.v [W]
     double growth = 0.0; ///< sum f.F/m; 0 for forces on what moves at a prescribed velocity [W/s]
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        visit("at_end", self.at_end);
+        visit("growth", self.growth);
+    }
 };
 
 /// Work of a force in a step of velocity Verlet, (f_n + f_n+1)/2 . dt v_n+1/2 [J]: with all forces summed so, the
@@ -35,6 +42,14 @@ struct LedgerPowers {
     ForcePower boundary;  ///< of what moves points and obstacles
     ForcePower friction;  ///< on the slip of contacts
     ForcePower collision; ///< of what does not come from stored energy, on the approach
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        visit.part("boundary", self.boundary);
+        visit.part("friction", self.friction);
+        visit.part("collision", self.collision);
+    }
 };
 
 /// Energies since the ledger was opened [J]. Each is found by its own way: kinetic and gravity from velocities and
@@ -55,6 +70,21 @@ struct EnergyLedger {
     /// opening. A step from n to n+1 adds (F_n + F_n+1)/2 . dx to kinetic + verlet exactly.
     double verlet = 0.0;
     double turned_over = 0.0; ///< largest turnover() since the opening
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        visit("kinetic", self.kinetic);
+        visit("gravity", self.gravity);
+        visit("stress_work", self.stress_work);
+        visit("contact", self.contact);
+        visit("friction", self.friction);
+        visit("collision", self.collision);
+        visit("boundary", self.boundary);
+        visit("opening", self.opening);
+        visit("verlet", self.verlet);
+        visit("turned_over", self.turned_over);
+    }
 
     /// What is missing or too much; 0 but for round-off while stress and contact are linear in the motion of a step.
     double error() const

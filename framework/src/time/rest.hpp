@@ -34,7 +34,7 @@ public:
     /// Drift below this part of the speed is rest without a motion before it: of what stands and only twitched.
     static constexpr double standing = 0.1;
 
-    /// What a checkpoint must keep.
+    /// What lives from step to step.
     struct State {
         std::vector<Vector3> position; ///< of the points at the start of the window; none before the first [m]
         std::vector<Vector3> velocity; ///< mean of the points in the window before; none before the second [m/s]
@@ -42,6 +42,17 @@ public:
         double length = 0.0;           ///< of the window before [s]
         double peak = 0.0;             ///< largest drift of a window [m/s]
         double last = 0.0;             ///< drift of the window before [m/s]
+
+        template <class Self, class Visit>
+        static void members(Self& self, Visit& visit, std::size_t points)
+        {
+            visit("position", empty_or(self.position, points));
+            visit("velocity", empty_or(self.velocity, points));
+            visit("begun", self.begun);
+            visit("length", self.length);
+            visit("peak", self.peak);
+            visit("last", self.last);
+        }
     };
 
     RestCriterion(const RestRule& rule, State& state) : rule_(rule), state_(state) {}

@@ -52,7 +52,11 @@ public:
     double update(Model& model, const ForceState& force_state, std::span<const Eigen::Matrix3d> grounded = {});
 
     const std::vector<Vector3>& mode() const { return mode_; }
-    void set_mode(std::vector<Vector3> mode) { mode_ = std::move(mode); }
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit, std::size_t points)
+    {
+        visit("mode", empty_or(self.mode_, points));
+    }
     /// Of the operator, that the last update took.
     int evaluations() const { return evaluations_; }
 

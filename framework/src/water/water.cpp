@@ -109,6 +109,7 @@ void Water::begin_stage(const Model& model, const StageDescription& stage)
     now.saturation_after = now.saturation_before;
     course_ = std::move(now);
     set_durations(stage);
+    settled_ = stage.water_changes.empty();
     for (const WaterChangeDescription& change : stage.water_changes)
         for (std::size_t b = 0; b < bodies_.size(); ++b)
             if (description_->bodies[b].name == change.body)
@@ -152,12 +153,10 @@ void Water::set_durations(const StageDescription& stage)
             }
         longest_ = std::max(longest_, bodies_[b].over);
     }
-    settled_ = stage.water_changes.empty();
 }
 
-void Water::restore(Model& model, WaterCourse course, const StageDescription& stage)
+void Water::resume(Model& model, const StageDescription& stage)
 {
-    course_ = std::move(course);
     set_durations(stage);
     for (std::size_t b = 0; b < bodies_.size(); ++b)
         model.bodies[b].water_level = level(b);

@@ -49,10 +49,14 @@ public:
     /// How long after the beginning of the stage the last of its changes ends [s].
     double last_change() const { return longest_; }
 
-    /// What a checkpoint must keep.
-    const WaterCourse& course() const { return course_; }
-    /// Goes on in a stage that had begun.
-    void restore(Model& model, WaterCourse course, const StageDescription& stage);
+    template <class Self, class Visit>
+    static void members(Self& self, Visit& visit)
+    {
+        visit.part("course", self.course_);
+        visit("settled", self.settled_);
+    }
+    /// Sets what follows from the members: goes on in a stage that had begun.
+    void resume(Model& model, const StageDescription& stage);
 
 private:
     /// The material of a body, its curve, and the change of its water in a stage.

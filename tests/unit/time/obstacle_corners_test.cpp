@@ -3,6 +3,7 @@
 //
 // Grains that move in corners, over edges and along valleys of one obstacle: forces, energy, equilibrium, crossing.
 #include "contact/short_range/short_range.hpp"
+#include "support/archives.hpp"
 #include "support/corners.hpp"
 #include "support/specimens.hpp"
 #include "time/dynamics.hpp"
@@ -10,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 using namespace specimens;
@@ -294,7 +296,7 @@ TEST_CASE("a plate that comes fast is held to the same")
     CHECK(crossings == 1);
 }
 
-TEST_CASE("a run that is taken up from its surface track goes on with the same bits")
+TEST_CASE("a contact that is restored goes on with the same bits")
 {
     using periporo::test::box;
     const Vector3 low = Vector3::Constant(-periporo::test::wall);
@@ -315,8 +317,8 @@ TEST_CASE("a run that is taken up from its surface track goes on with the same b
     Scene resumed(grains, {shape}, 0.2, 0.8);
     launch(resumed);
     resumed.start();
-    resumed.contact.set_surface_track(resumed.model, whole.contact.surface_track());
-    resumed.contact.set_rooms(resumed.model, whole.contact.rooms());
+    periporo::test::save_and_restore(whole.contact, resumed.contact, grains.size(), std::size_t{1});
+    resumed.contact.resume(resumed.model, 0.1 * dx);
     resumed.model.obstacles[0].shift = whole.model.obstacles[0].shift;
     resumed.model.points = whole.model.points;
     resumed.model.update_records();
@@ -330,4 +332,36 @@ TEST_CASE("a run that is taken up from its surface track goes on with the same b
         CHECK(whole.model.points.position[i] == resumed.model.points.position[i]);
         CHECK(whole.model.points.position[i].z() > 0.0); // it was held
     }
+}
+
+TEST_CASE("a grain that crosses a plate right after it was restored lets go of what it had stored before")
+{
+    using periporo::test::box;
+    const Shape plate = box({-0.1, -0.1, -2e-3}, {0.1, 0.1, 0.0});
+    const std::vector<Vector3> grains{{0.05, 0.05, 1.1 * reach}};
+    const auto launched = [&](int steps) {
+        auto scene = std::make_unique<Scene>(grains, std::vector<Shape>{plate}, 0.2, 0.8);
+        scene->model.points.velocity = {{0.0, 0.0, -6.0}};
+        scene->start();
+        for (int n = 0; n < steps; ++n)
+            scene->step(1e-5);
+        return scene;
+    };
+    const auto probe = launched(0);
+    int before = 0; // steps before the one in which it crosses
+    for (probe->step(1e-5); probe->contact.crossings().empty() && before < 1000; probe->step(1e-5))
+        ++before;
+    REQUIRE(before < 1000);
+    const auto whole = launched(before), resumed = launched(0);
+    periporo::test::save_and_restore(whole->contact, resumed->contact, grains.size(), std::size_t{1});
+    periporo::test::save_and_restore(whole->dynamics, resumed->dynamics);
+    resumed->contact.resume(resumed->model, 0.1 * dx);
+    resumed->model.points = whole->model.points;
+    for (Scene* scene : {whole.get(), resumed.get()}) {
+        scene->step(1e-5);
+        CHECK(scene->contact.crossings().size() == 1);
+    }
+    CHECK(whole->contact.energy_let_go() > 0.0);
+    CHECK(resumed->contact.energy_let_go() == whole->contact.energy_let_go());
+    CHECK(resumed->dynamics.ledger().collision == whole->dynamics.ledger().collision);
 }

@@ -5,6 +5,7 @@
 #include "case/reader.hpp"
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
+#include "support/archives.hpp"
 #include "support/case_text.hpp"
 #include "support/errors.hpp"
 #include "support/plugins.hpp"
@@ -370,10 +371,11 @@ TEST_CASE("a stage that follows a change, and one that was resumed, goes on from
     StageDescription still = block.description.stages[0];
     still.water_changes.clear();
     water.begin_stage(model, still);
-    Water resumed(block.description, built_plugins());
+    Water resumed = block.built.water; // with lists of the right lengths
     Model other = model;
     other.bodies[0].water_level = 7.0;
-    resumed.restore(other, water.course(), still);
+    save_and_restore(water, resumed);
+    resumed.resume(other, still);
     CHECK(other.bodies[0].water_level == model.bodies[0].water_level);
     for (const auto& [one, its] : {std::pair{&water, &model}, {&resumed, &other}}) {
         const ArrivedEnergy arrived = one->follow(*its, 0.1);

@@ -66,7 +66,7 @@ class Run:
 
     @property
     def resumable(self) -> bool:
-        return (self.folder / "checkpoint.h5").is_file()
+        return any((self.folder / name).is_file() for name in ("checkpoint.bin", "checkpoint.previous.bin"))
 
 
 def read_record(path: Path) -> dict:
