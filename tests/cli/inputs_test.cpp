@@ -34,13 +34,9 @@ void write_files(const ProgramFolder& folder)
 /// Stops a run in `it` once it has a few rows of history.
 void stop_a_run(const ProgramFolder& folder)
 {
-    folder.write(
-        "stop.sh",
-        "'" PERIPORO_PROGRAM "' run case.toml --quiet --threads 1 --out it --set 'run.history_every=1 us' &\n"
-        "pid=$!\nwhile kill -0 $pid 2> /dev/null && [ $(cat it/history.csv.part 2> /dev/null | wc -l) -lt 3 ]\n"
-        "do :; done\nkill $pid\nwait $pid\n");
-    REQUIRE(WEXITSTATUS(std::system(("cd '" + folder.path().string() + "' && sh stop.sh 2> /dev/null").c_str())) ==
-            130);
+    REQUIRE(
+        folder.run("run case.toml --quiet --threads 1 --out it --set 'run.history_every=1 us' --stop-after 5").status ==
+        130);
 }
 
 const std::string resume = "run case.toml --quiet --threads 1 --out it --set 'run.history_every=1 us' --resume";

@@ -21,10 +21,12 @@ const std::string coarse = "run " PERIPORO_SOURCE_DIR "/cases/column_collapse/qu
                            "--set 'discretization.spacing=20 mm' --set 'stage.1.duration=20 ms' "
                            R"(--set 'output=[{ writer = "csv", every = "1 s" }]' --quiet )";
 /// The same, some 10,000 steps, with a checkpoint as often as it can be.
-const std::string long_run = "run " PERIPORO_SOURCE_DIR "/cases/column_collapse/quickstart.toml "
-                             "--set 'discretization.spacing=20 mm' --set 'stage.1.duration=0.4 s' "
-                             "--set 'run.checkpoint_every=1 ms' "
-                             R"(--set 'output=[{ writer = "csv", every = "1 s" }]' --quiet )";
+const std::string long_run =
+    "run " PERIPORO_SOURCE_DIR "/cases/column_collapse/quickstart.toml "
+    "--set 'discretization.spacing=20 mm' --set 'stage.1.duration=0.4 s' "
+    "--set 'run.checkpoint_every=1 ms' "
+    R"(--set 'output=[{ writer = "csv", every = "1 s" }, { writer = "hdf5", every = "20 ms" }]' )"
+    "--quiet ";
 
 /// Names, content and times of all files in a folder.
 std::map<std::string, std::string> everything_in(const std::filesystem::path& folder)
@@ -226,7 +228,6 @@ TEST_CASE("a checkpoint that may not grow is an error with its name and the reas
 
 TEST_CASE("a run that is killed again and again ends at the same bits")
 {
-    // Results in HDF5 are tested with their writer.
     const ProgramFolder folder;
     REQUIRE(folder.run(long_run + "--threads 1 --out whole").status == 0);
     std::mt19937 random(7);
@@ -234,7 +235,7 @@ TEST_CASE("a run that is killed again and again ends at the same bits")
     const int kills = long_tests() ? 200 : 10;
     int killed = 0, complete = 0;
     const auto go_on = [&](double limit) {
-        const bool begun = std::filesystem::exists(folder.path() / "parts/run.log");
+        const bool begun = std::filesystem::exists(folder.path() / "parts/periporo.run");
         const int status = shell(folder, fmt::format("timeout -s KILL {:.3f} $program {} --threads {} --out parts {}\n",
                                                      limit, long_run, 1 + killed % 2, begun ? "--resume" : ""));
         const std::string error = ProgramFolder::read(folder.path() / "error");

@@ -101,7 +101,7 @@ inline void check_same_results(const std::map<std::string, std::string>& found,
 /// Is every call to be tried, and not a spread of them?
 inline bool every_call()
 {
-    return std::getenv("PERIPORO_EVERY_CALL") != nullptr;
+    return std::getenv("PERIPORO_LONG_TESTS") != nullptr;
 }
 
 } // namespace periporo::test

@@ -5,7 +5,7 @@
 // when there is room again.
 //
 // The fault is for the files of the writers and the mark of the folder. The suite tries a spread of the calls at which
-// the disk is full; PERIPORO_EVERY_CALL=1 tries all of them.
+// the disk is full; PERIPORO_LONG_TESTS=1 tries all of them.
 #include "faults/faulty_run.hpp"
 
 #include <cerrno>
@@ -53,7 +53,7 @@ void check_fault(int error, const std::string& below, long tries)
 
 TEST_CASE("a full disk is told with the reason of the system, and the run goes on when there is room")
 {
-    for (const char* below : {"/results", "/history.csv", "/periporo.run"})
+    for (const char* below : {"/results", "/history.csv", "/periporo.run", "/checkpoint"})
         check_fault(ENOSPC, below, 6);
 }
 

@@ -24,8 +24,8 @@ std::filesystem::path default_result_folder(const std::filesystem::path& case_fi
 /// @throws UsageError or FolderError with a way out.
 void check_result_folder(const std::filesystem::path& folder, ExistingResults existing);
 
-/// Checks the folder again, and keeps it for this run as long as the lock lives. With `overwrite` deletes what a run wrote
-/// there and nothing else: files of somebody else stay, and are named on standard error.
+/// Checks the folder again, and keeps it for this run as long as the lock lives. With `overwrite` deletes what a run
+/// wrote there and nothing else: files of somebody else stay, and are named on standard error.
 /// @throws UsageError or FolderError with a way out; nothing is changed then.
 FolderLock take_result_folder(const std::filesystem::path& folder, ExistingResults existing);
 

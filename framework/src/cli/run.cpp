@@ -39,10 +39,10 @@ ExitStatus run(RunArguments& arguments)
     const CaseDescription description = read_case(arguments.the_case.file, arguments.the_case.options, registry);
     if (arguments.options.directory.empty())
         arguments.options.directory = default_result_folder(arguments.the_case.file);
-    if (arguments.options.resume)
-        require_unfinished_run(arguments.options.directory, description.resolved);
     const ExistingResults existing = existing_results(arguments);
     check_result_folder(arguments.options.directory, existing);
+    if (arguments.options.resume)
+        require_unfinished_run(arguments.options.directory, description.resolved);
     std::optional<FolderLock> lock; // until the end of the run
     arguments.options.take_folder = [&] { lock.emplace(take_result_folder(arguments.options.directory, existing)); };
     const RunOutcome outcome = run_case(description, registry, arguments.options);

@@ -9,9 +9,10 @@
 
 namespace periporo::cli {
 
-/// Changes nothing. A checkpoint is looked at later, by find_checkpoint().
-/// @throws UsageError with a way out when the folder holds no run, a run that is complete or that failed before its
-/// first checkpoint, or, without a checkpoint, the run of another case
+/// Looks at the run in a folder that check_result_folder() has let pass, and changes nothing. A checkpoint is looked at
+/// later, by find_checkpoint().
+/// @throws UsageError with a way out when the run is complete or failed before its first checkpoint, or, without a
+/// checkpoint, is of another case
 void require_unfinished_run(const std::filesystem::path& folder, const std::string& resolved_case);
 
 } // namespace periporo::cli

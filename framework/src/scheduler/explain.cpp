@@ -62,8 +62,8 @@ std::unique_ptr<Sample> prepared(const CaseDescription& description, const Plugi
             body.fill.align = "axes";
     sample->options.quiet = true;
     const auto silent = std::make_shared<spdlog::logger>("explain", std::make_shared<spdlog::sinks::null_sink_mt>());
-    sample->simulation = std::make_unique<Simulation>(sample->description, registry, sample->options,
-                                                      sample->interruption, silent);
+    sample->simulation =
+        std::make_unique<Simulation>(sample->description, registry, sample->options, sample->interruption, silent);
     sample->simulation->prepare();
     return sample;
 }

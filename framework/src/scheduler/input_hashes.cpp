@@ -46,11 +46,15 @@ std::vector<path> loaded_libraries()
     return files;
 }
 
+/// Those of the program itself, and what the user has the system load before it, as a debugger or an allocator.
+const std::vector<path> loaded_at_start = loaded_libraries();
+
+constexpr const char* sdk_role = "library libperiporo_sdk.so"; // a part of the program
+
 /// May a file of this role differ when a run is resumed?
 bool may_differ(std::string_view role)
 {
-    return role == "case" || role.starts_with("include") || role == "program" ||
-           role == "library libperiporo_sdk.so"; // a part of the program
+    return role == "case" || role.starts_with("include") || role == "program" || role == sdk_role;
 }
 
 } // namespace
@@ -82,10 +86,14 @@ InputHashes InputHashes::of(const CaseDescription& description, const PluginRegi
     };
     for (const InputFile& input : description.inputs)
         add(input.role, input.file);
-    for (const path& library : loaded_libraries())
-        if (std::ranges::find(registry.plugins(), library, &PluginRecord::file) == registry.plugins().end() &&
+    for (const path& library : loaded_libraries()) {
+        const std::string role = "library " + library.filename().string();
+        const bool of_start = role != sdk_role && std::ranges::count(loaded_at_start, library) > 0;
+        if (!of_start &&
+            std::ranges::find(registry.plugins(), library, &PluginRecord::file) == registry.plugins().end() &&
             std::ranges::find(registry.failures(), library, &PluginFailure::file) == registry.failures().end())
-            add("library " + library.filename().string(), library);
+            add(role, library);
+    }
     std::error_code error;
     if (const path program = std::filesystem::read_symlink("/proc/self/exe", error);
         std::filesystem::is_regular_file(program, error))

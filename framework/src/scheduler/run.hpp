@@ -33,8 +33,8 @@ enum class RunOutcome {
 
 /// Runs the case. Writes log, results, checkpoint and summary into the directory.
 /// @throws std::exception with stage, step, time, point and position when the run goes wrong (exit status 1).
-/// @throws PluginError or CaseError when the fault is the user's (exit status 2), ForeignCheckpoint when `resume` finds the
-/// run of another case, version or input; nothing has been written then.
+/// @throws PluginError or CaseError when the fault is the user's (exit status 2), ForeignCheckpoint when `resume` finds
+/// the run of another case, version or input; nothing has been written then.
 RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options);
 
 /// Builds all that a run of the case would build, short of its first step, and writes nothing.

@@ -218,7 +218,10 @@ void Simulation::restore(ArchiveReader& checkpoint)
     constexpr std::size_t longest_inputs = std::size_t{64} << 20; // [bytes]
     std::string inputs;
     checkpoint("inputs", at_most(inputs, longest_inputs));
-    if (const std::string difference = inputs_.difference_from(InputHashes::from_text(inputs)); !difference.empty())
+    const InputHashes before = InputHashes::from_text(inputs);
+    if (before.text() != inputs)
+        throw ArchiveError(fmt::format("\"inputs\" in {} is no list of hashes", checkpoint.file().string()));
+    if (const std::string difference = inputs_.difference_from(before); !difference.empty())
         throw ForeignCheckpoint(fmt::format("{} cannot go on: {}; bring back the file as it was, or start anew with "
                                             "--overwrite",
                                             checkpoint.file().string(), difference));
@@ -519,11 +522,10 @@ void Simulation::checkpoint()
     RunPosition position = at_;
     position.wall_seconds = wall_seconds();
     position.stage_reports = reports_.dump();
-    write_checkpoint(options_.directory, description_.resolved,
-                     [&](ArchiveWriter& archive) {
-                         archive("inputs", inputs_.text());
-                         save_run(archive, state(position));
-                     });
+    write_checkpoint(options_.directory, description_.resolved, [&](ArchiveWriter& archive) {
+        archive("inputs", inputs_.text());
+        save_run(archive, state(position));
+    });
     last_checkpoint_ = std::chrono::steady_clock::now();
     checkpoint_took_ = last_checkpoint_ - began;
     checkpoint_step_ = at_.step;
