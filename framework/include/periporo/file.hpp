@@ -45,6 +45,9 @@ void write_whole(const std::filesystem::path& file, std::string_view content);
 /// The content of a file; a symbolic link is not followed. @throws FileError
 std::string read_whole(const std::filesystem::path& file);
 
+/// Bytes of a file. @throws FileError
+std::uint64_t size_of_file(const std::filesystem::path& file);
+
 /// Deletes a file, or a symbolic link and not what it points to; a file that is not there is no error.
 /// @throws FileError
 void remove_file(const std::filesystem::path& file);

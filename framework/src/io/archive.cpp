@@ -7,7 +7,8 @@
 // machine has them. The mark tells the order of bytes.
 #include "io/archive.hpp"
 
-#include <boost/crc.hpp>
+#include "periporo/file.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -27,7 +28,6 @@ namespace periporo {
 namespace {
 
 using std::filesystem::path;
-using Checksum = boost::crc_32_type;
 
 constexpr char mark[] = "periporo archive 1\n";
 constexpr std::uint32_t byte_order = 0x01020304;
@@ -36,15 +36,10 @@ constexpr std::size_t checksum_size = 4;
 constexpr std::size_t largest_name = 1024;
 constexpr std::size_t buffer_size = std::size_t{1} << 20;
 
-[[noreturn]] void throw_errno(const std::string& what, const path& file, int error = errno)
-{
-    throw ArchiveError(fmt::format("cannot {} {}: {}", what, file.string(), std::strerror(error)));
-}
-
-/// A file of the system that is closed at the end.
+/// A file to be read, closed at the end.
 class Descriptor {
 public:
-    Descriptor(const path& file, int flags) : number_(::open(file.c_str(), flags | O_CLOEXEC, 0666)) {}
+    explicit Descriptor(const path& file) : number_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
     ~Descriptor()
     {
         if (number_ >= 0)
@@ -54,19 +49,10 @@ public:
     Descriptor& operator=(const Descriptor&) = delete;
 
     int number() const { return number_; }
-    /// @return 0, or errno
-    int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
 
 private:
     int number_;
 };
-
-/// Returns when the contents of a file or the entries of a folder are on the disk.
-void synchronize(int descriptor, const path& file)
-{
-    if (::fsync(descriptor) != 0 && errno != EINVAL && errno != EROFS) // some file systems cannot flush a folder
-        throw_errno("write", file);
-}
 
 template <class Number>
 bool all_finite(const void* numbers, std::size_t count)
@@ -75,73 +61,46 @@ bool all_finite(const void* numbers, std::size_t count)
     return std::all_of(first, first + count, [](Number number) { return std::isfinite(number); });
 }
 
-/// Returns when the entries of the folder of a file are on the disk.
-void synchronize_folder_of(const path& file)
-{
-    const path folder = file.has_parent_path() ? file.parent_path() : path(".");
-    const Descriptor descriptor(folder, O_RDONLY);
-    if (descriptor.number() < 0)
-        throw_errno("write", folder);
-    synchronize(descriptor.number(), folder);
-}
-
-void move_to(const path& from, const path& to)
-{
-    std::error_code error;
-    std::filesystem::rename(from, to, error);
-    if (error)
-        throw_errno(fmt::format("rename {} to", from.string()), to, error.value());
-}
-
 } // namespace
 
 struct ArchiveWriter::Implementation {
     path target;
     path part;
-    Descriptor file;
-    std::vector<char> buffer;
+    AppendedFile file;
+    std::string buffer;
     std::set<std::string> names;
-    Checksum checksum;
+    std::uint32_t checksum = 0;
     bool completed = false;
     bool committed = false;
 
-    explicit Implementation(path to)
-        : target(std::move(to)), part(target.string() + ".part"), file(part, O_WRONLY | O_CREAT | O_TRUNC)
+    explicit Implementation(path to) : target(std::move(to)), part(part_of(target))
     {
-        if (file.number() < 0)
-            throw_errno("write", part);
+        write_whole(part, "");
+        file = AppendedFile(part);
         buffer.reserve(buffer_size);
     }
 
-    void write_out(const char* bytes, std::size_t size)
+    void write_out(std::string_view bytes)
     {
-        checksum.process_bytes(bytes, size);
-        while (size > 0) {
-            const ssize_t written = ::write(file.number(), bytes, size);
-            if (written < 0 && errno == EINTR)
-                continue;
-            if (written <= 0)
-                throw_errno("write", part, written < 0 ? errno : ENOSPC);
-            bytes += written;
-            size -= static_cast<std::size_t>(written);
-        }
+        checksum = crc32(bytes, checksum);
+        file.append(bytes);
     }
 
     void flush()
     {
-        write_out(buffer.data(), buffer.size());
+        write_out(buffer);
         buffer.clear();
     }
 
     void append(const void* data, std::size_t size)
     {
-        const char* bytes = static_cast<const char*>(data);
+        const std::string_view bytes(static_cast<const char*>(data), size);
         if (buffer.size() + size > buffer_size)
             flush();
         if (size > buffer_size)
-            write_out(bytes, size);
+            write_out(bytes);
         else
-            buffer.insert(buffer.end(), bytes, bytes + size);
+            buffer += bytes;
     }
 };
 
@@ -181,12 +140,10 @@ void ArchiveWriter::complete()
     if (std::exchange(archive.completed, true))
         return;
     archive.flush();
-    const std::uint32_t checksum = archive.checksum.checksum();
+    const std::uint32_t checksum = archive.checksum;
     archive.append(&checksum, sizeof(checksum));
     archive.flush();
-    synchronize(archive.file.number(), archive.part);
-    if (const int error = archive.file.close(); error != 0)
-        throw_errno("write", archive.part, error);
+    archive.file.synchronize();
 }
 
 void ArchiveWriter::commit(const path& previous)
@@ -194,10 +151,9 @@ void ArchiveWriter::commit(const path& previous)
     complete();
     Implementation& archive = *implementation_;
     if (!previous.empty() && std::filesystem::exists(archive.target))
-        move_to(archive.target, previous);
-    move_to(archive.part, archive.target);
+        rename_file(archive.target, previous);
+    rename_file(archive.part, archive.target);
     archive.committed = true;
-    synchronize_folder_of(archive.target);
 }
 
 struct ArchiveReader::Implementation {
@@ -212,13 +168,13 @@ struct ArchiveReader::Implementation {
     std::uint64_t end = 0; ///< of the entries
     std::map<std::string, Entry> entries;
 
-    explicit Implementation(path from) : source(std::move(from)), file(source, O_RDONLY | O_NONBLOCK)
+    explicit Implementation(path from) : source(std::move(from)), file(source)
     {
         if (file.number() < 0)
-            throw_errno("read", source);
+            throw ArchiveError(FileError("cannot read", source, errno).what());
         struct stat status = {};
         if (::fstat(file.number(), &status) != 0)
-            throw_errno("read", source);
+            throw ArchiveError(FileError("cannot read", source, errno).what());
         if (!S_ISREG(status.st_mode))
             throw ArchiveError(fmt::format("{} is no file", source.string()));
         const auto size = static_cast<std::uint64_t>(status.st_size);
@@ -242,7 +198,7 @@ struct ArchiveReader::Implementation {
             if (got < 0 && errno == EINTR)
                 continue;
             if (got < 0)
-                throw_errno("read", source);
+                throw ArchiveError(FileError("cannot read", source, errno).what());
             if (got == 0)
                 refuse("it ends too early");
             bytes += got;
@@ -253,19 +209,19 @@ struct ArchiveReader::Implementation {
 
     void verify() const
     {
-        Checksum checksum;
-        std::vector<char> buffer(std::min<std::uint64_t>(buffer_size, end));
+        std::uint32_t checksum = 0;
+        std::string buffer(std::min<std::uint64_t>(buffer_size, end), '\0');
         for (std::uint64_t at = 0; at < end; at += buffer.size()) {
             buffer.resize(std::min<std::uint64_t>(buffer.size(), end - at));
             read(buffer.data(), buffer.size(), at);
             if (at == 0 && std::memcmp(buffer.data(), mark, sizeof(mark) - 1) != 0)
                 refuse("it does not begin as an archive of this program does");
-            checksum.process_bytes(buffer.data(), buffer.size());
+            checksum = crc32(buffer, checksum);
         }
         std::uint32_t stored = 0, order = 0;
         read(&stored, sizeof(stored), end);
         read(&order, sizeof(order), sizeof(mark) - 1);
-        if (checksum.checksum() != stored)
+        if (checksum != stored)
             refuse("its checksum does not agree with its content");
         if (order != byte_order)
             throw ArchiveError(fmt::format("{} was written by a machine of another kind", source.string()));

@@ -141,7 +141,8 @@ template <class Value>
 inline constexpr std::size_t numbers_in = reals_of<Value> > 0 ? reals_of<Value> : 1;
 
 /// Collects values in `<path>.part`; nothing is seen under `path` before commit().
-/// Every call throws ArchiveError with the path and the reason when the file system fails, or a name is taken.
+/// Every call throws FileError with the path and the reason when the file system fails, ArchiveError when a name is
+/// taken.
 class ArchiveWriter {
 public:
     explicit ArchiveWriter(std::filesystem::path path);

@@ -5,6 +5,7 @@
 #include "io/checkpoint.hpp"
 
 #include "io/case_difference.hpp"
+#include "periporo/file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -85,14 +86,14 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, const std::string& resol
 
 void set_damaged_checkpoint_aside(const fs::path& folder)
 {
-    fs::rename(folder / checkpoint_name, folder / damaged_checkpoint_name);
+    rename_file(folder / checkpoint_name, folder / damaged_checkpoint_name);
 }
 
 void remove_checkpoints(const fs::path& folder)
 {
     for (const char* name : {checkpoint_name, previous_checkpoint_name, damaged_checkpoint_name})
-        fs::remove(folder / name);
-    fs::remove(folder / (std::string(checkpoint_name) + ".part")); // of a run that was killed while it wrote one
+        remove_file(folder / name);
+    remove_file(part_of(folder / checkpoint_name)); // of a run that was killed while it wrote one
 }
 
 } // namespace periporo

@@ -29,7 +29,7 @@ inline constexpr const char* damaged_checkpoint_name = "checkpoint.damaged.bin";
 /// Writes a checkpoint aside, brings it to the disk, and renames the newest to the previous one and it to the newest.
 /// @param resolved_case the whole case, by which a checkpoint is known
 /// @param save adds all that the run needs to go on
-/// @throws ArchiveError naming the file and the reason
+/// @throws FileError naming the file and the reason
 void write_checkpoint(const std::filesystem::path& folder, const std::string& resolved_case,
                       const std::function<void(ArchiveWriter&)>& save);
 

@@ -3,6 +3,7 @@
 //
 #include "io/run_folder.hpp"
 
+#include "io/checkpoint.hpp"
 #include "periporo/file.hpp"
 
 #include <fcntl.h>
@@ -30,17 +31,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view mark_begin = "A run of periporo writes into this folder; the last one was process ";
 
 /// What every run makes in its folder, and what the writers of the program made before they told their names.
-constexpr std::array known_names{"checkpoint.bin",
-                                 "checkpoint.previous.bin",
-                                 "checkpoint.damaged.bin",
-                                 "checkpoint.h5",
-                                 "summary.json",
-                                 "results.h5",
-                                 "results.xdmf",
-                                 "results.parts",
-                                 "history.csv",
-                                 "run.log",
-                                 "case.toml"};
+constexpr std::array known_names{
+    checkpoint_name, previous_checkpoint_name, damaged_checkpoint_name, "checkpoint.h5", "summary.json", "results.h5",
+    "results.xdmf",  "results.parts",          "history.csv",           "run.log",       "case.toml"};
 
 std::string first_line(std::uint64_t process)
 {

@@ -4,6 +4,7 @@
 // Writing aside, renaming and appending with the calls of POSIX, whose reasons reach the user.
 #include "periporo/file.hpp"
 
+#include <boost/crc.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -13,6 +14,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace periporo {
@@ -96,6 +98,15 @@ int flush_descriptor(int descriptor)
     return errno;
 }
 
+/// The bits in the opposite order.
+std::uint32_t mirrored(std::uint32_t bits)
+{
+    std::uint32_t result = 0;
+    for (int bit = 0; bit < 32; ++bit)
+        result |= (bits >> bit & 1u) << (31 - bit);
+    return result;
+}
+
 path folder_of(const path& file)
 {
     return file.has_parent_path() ? file.parent_path() : path(".");
@@ -173,6 +184,15 @@ std::string read_whole(const path& file)
     }
 }
 
+std::uint64_t size_of_file(const path& file)
+{
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(file, error);
+    if (error)
+        throw FileError("cannot read", file, error.value());
+    return size;
+}
+
 void remove_file(const path& file)
 {
     if (::unlink(file.c_str()) != 0 && errno != ENOENT)
@@ -197,20 +217,9 @@ path set_aside(const path& file)
 
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before)
 {
-    static const auto table = [] {
-        std::array<std::uint32_t, 256> entries{};
-        for (std::uint32_t i = 0; i < entries.size(); ++i) {
-            std::uint32_t value = i;
-            for (int bit = 0; bit < 8; ++bit)
-                value = (value >> 1) ^ ((value & 1u) != 0u ? 0xedb88320u : 0u); // polynomial of IEEE 802.3, mirrored
-            entries[i] = value;
-        }
-        return entries;
-    }();
-    std::uint32_t value = ~before;
-    for (const char byte : bytes)
-        value = table[(value ^ static_cast<unsigned char>(byte)) & 0xffu] ^ (value >> 8);
-    return ~value;
+    boost::crc_32_type sum(mirrored(~before)); // goes on from the remainder that the checksum before stands for
+    sum.process_bytes(bytes.data(), bytes.size());
+    return sum.checksum();
 }
 
 AppendedFile::AppendedFile(path file) : file_(std::move(file))

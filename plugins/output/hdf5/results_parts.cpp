@@ -38,7 +38,11 @@ std::size_t values_of_record(const RunDescription& run)
 std::vector<std::string> names_in(const fs::path& folder)
 {
     std::vector<std::string> names;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    std::error_code error;
+    const fs::directory_iterator entries(folder, error);
+    if (error)
+        throw FileError("cannot read", folder, error.value());
+    for (const fs::directory_entry& entry : entries)
         names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
@@ -172,7 +176,7 @@ void ResultsParts::add(const Snapshot& snapshot, const std::vector<FieldView>& f
     ++next_number_;
     // Result file and XDMF grow with the number of snapshots. They are written again when the snapshots that wait are
     // as large as they are, so that a run never writes more of them than of snapshots.
-    unshown_bytes_ += fs::file_size(parts_ / snapshots_.back().part_name());
+    unshown_bytes_ += size_of_file(parts_ / snapshots_.back().part_name());
     if (unshown_bytes_ >= shown_bytes_)
         show();
 }
@@ -197,7 +201,7 @@ void ResultsParts::show()
     write_linked_results(file_, {run_, snapshots_, journal_.read(), missing_, false}, parts_name);
     write_xdmf();
     unshown_bytes_ = 0;
-    shown_bytes_ = fs::file_size(file_) + fs::file_size(run_.directory / xdmf_name);
+    shown_bytes_ = size_of_file(file_) + size_of_file(run_.directory / xdmf_name);
 }
 
 void ResultsParts::merge()

@@ -48,6 +48,9 @@ TEST_CASE("an error has the deed, the path, the reason and a way out")
     test::check_mentions(
         test::message_of_error([&] { write_whole(folder / "none" / "file", "text"); }),
         {"cannot write " + (folder / "none" / "file").string(), "No such file or directory", "taken the folder away"});
+    test::check_mentions(
+        test::message_of_error([&] { static_cast<void>(size_of_file(folder / "none")); }),
+        {"cannot read " + (folder / "none").string(), "No such file or directory", "taken the folder away"});
     test::check_mentions(FileError("cannot write", "out/file", ENOSPC).what(),
                          {"cannot write out/file: No space left on device; make room there"});
 }

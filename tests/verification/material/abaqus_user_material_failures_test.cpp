@@ -3,6 +3,7 @@
 //
 // User routines that go wrong, libraries that do not load, and several threads at once.
 #include "abaqus/material_of_library.hpp"
+#include "abaqus/misbehaving_ways.h"
 
 #include "periporo/kit/block.hpp"
 #include "support/case_text.hpp"
@@ -24,20 +25,6 @@ using namespace periporo::test;
 namespace {
 
 using Tensor6 = SymmetricTensor<double>;
-
-// as in misbehaving.c
-enum Way {
-    smaller_step = 1,
-    leave,
-    stop_with_error,
-    report_error,
-    warn,
-    not_finite,
-    state_not_finite,
-    past_state,
-    stop_statement,
-    end_program
-};
 
 std::unique_ptr<Material> misbehaving(Way way, const char* interface = "umat")
 {

@@ -2,6 +2,7 @@
    SPDX-License-Identifier: BSD-3-Clause
 
    Routines that go wrong where the strain 11 exceeds 0.01, in the way that the first property says. */
+#include "misbehaving_ways.h"
 #include "routine.h"
 
 #include <math.h>
@@ -15,19 +16,6 @@ void stdb_abqerr_(const int* lop, const char* text, const int* integers, const d
 
 /* of gfortran's run-time library: what it makes of STOP 'bad props' */
 void _gfortran_stop_string(const char* text, size_t length, _Bool quiet);
-
-enum Way {
-    smaller_step = 1,
-    leave,
-    stop_with_error,
-    report_error,
-    warn,
-    not_finite,
-    state_not_finite,
-    past_state,
-    stop_statement,
-    end_program
-};
 
 static void message(int lop, int number)
 {
