@@ -46,7 +46,7 @@ std::vector<path> loaded_libraries()
     return files;
 }
 
-/// Those of the program itself, and what the user has the system load before it, as a debugger or an allocator.
+/// Libraries that were loaded before main(): the program's own, and preloaded ones such as an allocator.
 const std::vector<path> loaded_at_start = loaded_libraries();
 
 constexpr const char* sdk_role = "library libperiporo_sdk.so"; // a part of the program
