@@ -12,8 +12,9 @@ namespace periporo {
 namespace {
 
 constexpr double support_radius = 1.8; ///< of the fit along the surface, in spacings: three points across on a lattice
-/// A point counts less for the surface the closer another point lies above it, and the nearer that one is to the normal.
-/// In a lattice points at the surface have others at up to a cosine of 0.53, points below it have one at 0.82 or more.
+/// A point counts less for the surface the closer another point lies above it, and the nearer that one is to the
+/// normal. In a lattice points at the surface have others at up to a cosine of 0.53, points below it have one at 0.82
+/// or more.
 constexpr double free_cosine = 0.57, covered_cosine = 0.78;
 constexpr double covered_distance = 1.55, free_distance = 1.85; ///< in spacings
 /// Cosine between the normals of a surface point and of the surface around: points that look the other way, as those at
