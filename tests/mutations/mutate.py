@@ -149,14 +149,14 @@ MUTATIONS = {
         "water/overburden.cpp", " - water.buoyancy_of(i)", "", "unit.water.overburden_test"
     ),
     "checksum_of_an_archive_not_verified": Mutation(
-        "io/archive.cpp", "if (checksum.checksum() != stored)", "if (false)", "unit.io.archive_test"
+        "io/archive.cpp", "if (checksum != stored)", "if (false)", "unit.io.archive_test"
     ),
     "length_of_an_entry_believed": Mutation(
         "io/archive.cpp", "if (entry.count > (end - entry.offset) / size)", "if (false)", "unit.io.archive_test"
     ),
     "damaged_checkpoint_left_in_its_place": Mutation(
         "io/checkpoint.cpp",
-        "fs::rename(folder / checkpoint_name, folder / damaged_checkpoint_name);",
+        "rename_file(folder / checkpoint_name, folder / damaged_checkpoint_name);",
         "fs::exists(folder);",
         "unit.io.checkpoint_test",
     ),
