@@ -43,11 +43,11 @@ Outcome one_step(const std::vector<Vector3>& positions, const ForceState& force,
     force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, 1e-5});
     Outcome outcome;
     for (std::size_t i = 0; i < model.size(); ++i) {
-        outcome.bonds += model.families[i].count;
-        outcome.active += model.families[i].count - model.inactive_bonds[i];
-        outcome.free_grains += model.free_grain[i];
-        outcome.largest_force = std::max(outcome.largest_force, model.internal_force[i].norm());
-        outcome.finite = outcome.finite && model.internal_force[i].allFinite();
+        outcome.bonds += model.neighbourhood.families[i].count;
+        outcome.active += model.neighbourhood.families[i].count - model.result.inactive_bonds[i];
+        outcome.free_grains += model.result.detached[i];
+        outcome.largest_force = std::max(outcome.largest_force, model.result.internal_force[i].norm());
+        outcome.finite = outcome.finite && model.result.internal_force[i].allFinite();
     }
     return outcome;
 }

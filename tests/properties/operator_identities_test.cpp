@@ -32,9 +32,10 @@ SymmetricTensor<double> random_stress(std::mt19937& generator)
 /// The slot, among all packs, of the bond in the opposite direction.
 std::size_t opposite_slot(const Model& model, std::size_t i, std::size_t b)
 {
-    const std::uint32_t neighbour = model.families[i].neighbours[b];
-    return model.families[model.families.parent(neighbour)].first_pack * pack_width +
-           model.families.opposite(static_cast<std::uint32_t>(i), neighbour, model.isometries);
+    const std::uint32_t neighbour = model.neighbourhood.families[i].neighbours[b];
+    return model.neighbourhood.families[model.neighbourhood.families.parent(neighbour)].first_pack * pack_width +
+           model.neighbourhood.families.opposite(static_cast<std::uint32_t>(i), neighbour,
+                                                 model.neighbourhood.isometries);
 }
 
 /// Share of a point's bonds that is active, bonds weighing as their influence times their sub-horizons, counted one by
@@ -42,16 +43,17 @@ std::size_t opposite_slot(const Model& model, std::size_t i, std::size_t b)
 double carried(const Model& model, const Influence& influence, std::size_t i)
 {
     const auto near = [&](std::size_t a, std::size_t b) {
-        return (model.points.position[a] - model.points.position[b]).norm() <= model.horizon;
+        return (model.state.points.position[a] - model.state.points.position[b]).norm() <= model.state.horizon;
     };
     double active = 0.0, all = 0.0;
-    for (std::size_t b = 0; b < model.families[i].count; ++b) {
-        const std::size_t j = model.families[i].neighbours[b];
+    for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b) {
+        const std::size_t j = model.neighbourhood.families[i].neighbours[b];
         double volume = 0.0;
         for (std::size_t k = 0; k < model.size(); ++k)
             if (near(i, k) && near(j, k))
-                volume += model.points.volume[k];
-        const double weight = influence((model.points.position[j] - model.points.position[i]).squaredNorm()) * volume;
+                volume += model.state.points.volume[k];
+        const double weight =
+            influence((model.state.points.position[j] - model.state.points.position[i]).squaredNorm()) * volume;
         all += weight;
         active += is_active(model, i, b) ? weight : 0.0;
     }
@@ -85,7 +87,7 @@ TEST_CASE("an affine velocity gives every bond of a random cloud, surfaces inclu
         force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, dt});
         double worst = 0.0;
         for (std::size_t i = 0; i < model.size(); ++i)
-            for (std::size_t b = 0; b < model.families[i].count; ++b)
+            for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b)
                 if (is_active(model, i, b)) {
                     std::size_t c = 0;
                     for (const double e :
@@ -95,8 +97,8 @@ TEST_CASE("an affine velocity gives every bond of a random cloud, surfaces inclu
         // 1/Q_b amplifies round-off by up to a few thousand in the flattest active sub-horizon
         CHECK(worst < 1e-9 * norm(expected));
         // the test is about nearly all bonds: with a gaussian a few at jittered corners are thinner than the bound
-        CHECK(std::accumulate(model.inactive_bonds.begin(), model.inactive_bonds.end(), std::size_t{0}) <
-              model.families.bonds() / 1000);
+        CHECK(std::accumulate(model.result.inactive_bonds.begin(), model.result.inactive_bonds.end(), std::size_t{0}) <
+              model.neighbourhood.families.bonds() / 1000);
     });
 }
 
@@ -133,12 +135,12 @@ TEST_CASE("the gradient of a bond agrees with the motion of its ends along it, t
         double worst = 0.0, unseen = 0.0;
         std::size_t bonds = 0, short_bonds = 0;
         for (std::size_t i = 0; i < found.size(); ++i)
-            for (std::size_t b = 0; b < found.families[i].count; ++b) {
+            for (std::size_t b = 0; b < found.neighbourhood.families[i].count; ++b) {
                 if (!is_active(found, i, b))
                     continue;
-                const std::size_t j = found.families[i].neighbours[b];
-                const Vector3 motion = dt * (found.points.velocity[j] - found.points.velocity[i]);
-                const Vector3 zeta = found.points.position[j] - found.points.position[i] - 0.5 * motion;
+                const std::size_t j = found.neighbourhood.families[i].neighbours[b];
+                const Vector3 motion = dt * (found.state.points.velocity[j] - found.state.points.velocity[i]);
+                const Vector3 zeta = found.state.points.position[j] - found.state.points.position[i] - 0.5 * motion;
                 const double agreement = std::min(1.0, zeta.squaredNorm() / std::pow(shortest_bond * dx, 2));
                 const double by_mean = stretching(mean, i, b, zeta);
                 const double expected = by_mean + agreement * (zeta.dot(motion) - by_mean);
@@ -165,23 +167,24 @@ TEST_CASE("internal power equals stress power")
         Model model = cloud(force);
         set_velocity(model, [&](const Vector3&) { return random_velocity(generator); });
         // one stress for both directions of a bond, as bond_projection shares it
-        std::vector<SymmetricTensor<double>> stress(model.families.packs() * pack_width);
+        std::vector<SymmetricTensor<double>> stress(model.neighbourhood.families.packs() * pack_width);
         for (std::size_t i = 0; i < model.size(); ++i) {
-            const FamilyView family = model.families[i];
+            const FamilyView family = model.neighbourhood.families[i];
             for (std::size_t b = 0; b < family.count; ++b) {
                 const std::size_t slot = family.first_pack * pack_width + b;
                 const std::size_t opposite = opposite_slot(model, i, b);
                 stress[slot] = opposite < slot ? stress[opposite] : random_stress(generator);
             }
         }
-        set_stress(model,
-                   [&](std::size_t i, std::size_t b) { return stress[model.families[i].first_pack * pack_width + b]; });
+        set_stress(model, [&](std::size_t i, std::size_t b) {
+            return stress[model.neighbourhood.families[i].first_pack * pack_width + b];
+        });
         force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
         double internal = 0.0, stress_power = 0.0, scale = 0.0;
         for (std::size_t i = 0; i < model.size(); ++i) {
-            internal += model.internal_force[i].dot(model.points.velocity[i]);
-            stress_power += model.stress_work[i];
-            scale += model.internal_force[i].norm() * model.points.velocity[i].norm();
+            internal += model.result.internal_force[i].dot(model.state.points.velocity[i]);
+            stress_power += model.result.stress_work[i];
+            scale += model.result.internal_force[i].norm() * model.state.points.velocity[i].norm();
         }
         CHECK(std::abs(internal + stress_power) < 1e-12 * scale);
         CHECK(std::abs(stress_power) > 1e-6 * scale); // the test would see a missing term
@@ -195,24 +198,26 @@ TEST_CASE("internal forces of any state of stress sum to zero, and so do their m
         CAPTURE(influence);
         std::mt19937 generator(5);
         Model model = cloud(force);
-        std::vector<SymmetricTensor<double>> stress(model.families.packs() * pack_width);
+        std::vector<SymmetricTensor<double>> stress(model.neighbourhood.families.packs() * pack_width);
         for (auto& s : stress)
             s = random_stress(generator);
         if (state == "bond_projection")
             for (std::size_t i = 0; i < model.size(); ++i)
-                for (std::size_t b = 0; b < model.families[i].count; ++b)
-                    stress[opposite_slot(model, i, b)] = stress[model.families[i].first_pack * pack_width + b];
-        set_stress(model,
-                   [&](std::size_t i, std::size_t b) { return stress[model.families[i].first_pack * pack_width + b]; });
-        model.update_records();
+                for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b)
+                    stress[opposite_slot(model, i, b)] =
+                        stress[model.neighbourhood.families[i].first_pack * pack_width + b];
+        set_stress(model, [&](std::size_t i, std::size_t b) {
+            return stress[model.neighbourhood.families[i].first_pack * pack_width + b];
+        });
+        model.gather_ends();
         force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
         Vector3 sum = Vector3::Zero(), moment = Vector3::Zero();
         double force_scale = 0.0, moment_scale = 0.0;
         for (std::size_t i = 0; i < model.size(); ++i) {
-            sum += model.internal_force[i];
-            moment += model.points.position[i].cross(model.internal_force[i]);
-            force_scale += model.internal_force[i].norm();
-            moment_scale += model.points.position[i].norm() * model.internal_force[i].norm();
+            sum += model.result.internal_force[i];
+            moment += model.state.points.position[i].cross(model.result.internal_force[i]);
+            force_scale += model.result.internal_force[i].norm();
+            moment_scale += model.state.points.position[i].norm() * model.result.internal_force[i].norm();
         }
         CHECK(sum.norm() < 1e-12 * force_scale);
         if (state != "volume_weighted")
@@ -235,12 +240,13 @@ TEST_CASE("a uniform stress has the exact resultant on a random cloud: sum f (x)
         Model model = from_positions(positions, dx);
         find_first_families(model, force);
         set_stress(model, [&](std::size_t, std::size_t) { return sigma; });
-        model.update_records();
+        model.gather_ends();
         force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
         double volume = 0.0;
         for (std::size_t i = 0; i < model.size(); ++i)
-            volume += dx * dx * dx *
-                      (force.uses_sub_horizons() ? carried(model, force.influence(), i) : 1.0 - model.free_grain[i]);
+            volume +=
+                dx * dx * dx *
+                (force.uses_sub_horizons() ? carried(model, force.influence(), i) : 1.0 - model.result.detached[i]);
         CHECK((force_moment(model) + volume * matrix(sigma)).norm() < 1e-11 * volume * matrix(sigma).norm());
         if (force.uses_sub_horizons()) // the test would see shares that go to other bonds
             CHECK(volume < (1.0 - 1e-6) * static_cast<double>(model.size()) * dx * dx * dx);
@@ -256,16 +262,16 @@ TEST_CASE("a uniform stress gives no force inside a lattice")
         Model model = from_positions(lattice(21, 20, 20, dx), dx);
         find_first_families(model, force);
         set_stress(model, [&](std::size_t, std::size_t) { return sigma; });
-        model.update_records();
+        model.gather_ends();
         force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
         const Vector3 upper = dx * Vector3(21, 20, 20);
         double inside = 0.0, largest = 0.0;
         for (std::size_t i = 0; i < model.size(); ++i) {
-            const Vector3& x = model.points.position[i];
+            const Vector3& x = model.state.points.position[i];
             const double depth = std::min(x.minCoeff(), (upper - x).minCoeff());
             // bond_projection feels a surface three horizons away: force <- A_j <- 1/w0_k <- family of k
             double& worst = depth > 9.1 * dx ? inside : largest;
-            worst = std::max(worst, model.internal_force[i].norm());
+            worst = std::max(worst, model.result.internal_force[i].norm());
         }
         CHECK(inside < 1e-12 * largest);
     });
@@ -276,18 +282,19 @@ TEST_CASE("on the published lattice the volume-weighted state carries 0.83 of th
     const SymmetricTensor<double> sigma = SymmetricTensor<double>::isotropic(-1e3);
     const auto stress_carried = [&](const std::string& state) {
         Model model = from_positions(lattice(15, 15, 15, dx), dx);
-        const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
+        const auto force = make_force_state(state, Influence::by_name("constant", model.state.horizon));
         find_first_families(model, *force);
         constexpr std::size_t centre = (7 * 15 + 7) * 15 + 7;
         set_stress(model, [&](std::size_t i, std::size_t) { return i == centre ? sigma : SymmetricTensor<double>{}; });
-        model.update_records();
+        model.gather_ends();
         force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
         // no other point is stressed, so that the force on a neighbour is -V_i V_j T_ij
-        const FamilyView family = model.families[centre];
+        const FamilyView family = model.neighbourhood.families[centre];
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (std::size_t b = 0; b < family.count; ++b) {
-            const Vector3 zeta = model.points.position[family.neighbours[b]] - model.points.position[centre];
-            sum -= model.internal_force[family.neighbours[b]] / (dx * dx * dx) * zeta.transpose();
+            const Vector3 zeta =
+                model.state.points.position[family.neighbours[b]] - model.state.points.position[centre];
+            sum -= model.result.internal_force[family.neighbours[b]] / (dx * dx * dx) * zeta.transpose();
         }
         CHECK((sum - sum(0, 0) * Eigen::Matrix3d::Identity()).norm() < 1e-9 * std::abs(sum(0, 0)));
         return sum(0, 0) / sigma.xx;
@@ -315,14 +322,14 @@ TEST_CASE("a quarter with symmetry planes has the forces of the full model")
                     whole.emplace_back(sx * x.x(), sy * x.y(), x.z());
         Model full = from_positions(whole, dx);
         Model cut = from_positions(quarter, dx);
-        cut.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(1, 0.0)});
+        cut.neighbourhood.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(1, 0.0)});
         for (Model* model : {&full, &cut}) {
             find_first_families(*model, force);
             for (int step = 0; step < 3; ++step) {
                 set_velocity(*model, velocity);
                 force.evaluate(*model, {StressUpdate::advance, MaterialResponse::full, 1e-3});
                 for (std::size_t i = 0; i < model->size(); ++i)
-                    model->points.position[i] += 1e-3 * model->points.velocity[i];
+                    model->state.points.position[i] += 1e-3 * model->state.points.velocity[i];
                 refresh_families(*model, force);
             }
             set_velocity(*model, velocity);
@@ -330,8 +337,8 @@ TEST_CASE("a quarter with symmetry planes has the forces of the full model")
         }
         double worst = 0.0, largest = 0.0;
         for (std::size_t i = 0; i < cut.size(); ++i) {
-            worst = std::max(worst, (cut.internal_force[i] - full.internal_force[i]).norm());
-            largest = std::max(largest, full.internal_force[i].norm());
+            worst = std::max(worst, (cut.result.internal_force[i] - full.result.internal_force[i]).norm());
+            largest = std::max(largest, full.result.internal_force[i].norm());
         }
         CHECK(worst < 1e-10 * largest);
     });
@@ -356,7 +363,7 @@ TEST_CASE("a periodic slab one spacing thick has the forces of the middle of a w
         CAPTURE(influence);
         Model wide = from_positions(layered, dx);
         Model slab = from_positions(layer, dx);
-        slab.isometries.set_generators({Isometry::shift(1, dx)});
+        slab.neighbourhood.isometries.set_generators({Isometry::shift(1, dx)});
         for (Model* model : {&wide, &slab}) {
             find_first_families(*model, force);
             set_velocity(*model, velocity);
@@ -364,8 +371,8 @@ TEST_CASE("a periodic slab one spacing thick has the forces of the middle of a w
         }
         double worst = 0.0, largest = 0.0;
         for (std::size_t i = 0; i < slab.size(); ++i) {
-            const Vector3& middle = wide.internal_force[layers / 2 * layer.size() + i];
-            worst = std::max(worst, (slab.internal_force[i] - middle).norm());
+            const Vector3& middle = wide.result.internal_force[layers / 2 * layer.size() + i];
+            worst = std::max(worst, (slab.result.internal_force[i] - middle).norm());
             largest = std::max(largest, middle.norm());
         }
         CHECK(worst < 1e-11 * largest);

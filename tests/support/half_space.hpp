@@ -4,7 +4,7 @@
 // The simplest geometry that can be an obstacle.
 #pragma once
 
-#include "model/obstacle.hpp"
+#include "state/obstacle.hpp"
 
 #include <limits>
 

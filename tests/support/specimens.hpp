@@ -47,15 +47,15 @@ inline constexpr double density = 1800.0; // [kg/m3]
 inline Model from_positions(const std::vector<Vector3>& positions, double spacing, double horizon_ratio = 3.015)
 {
     Model model;
-    model.spacing = spacing;
-    model.horizon = horizon_ratio * spacing;
-    model.bodies.push_back({"body", std::make_shared<LawMaterial<Hooke>>(Parameters{}), 1.0});
-    model.points.resize(positions.size());
+    model.state.spacing = spacing;
+    model.state.horizon = horizon_ratio * spacing;
+    model.state.bodies.push_back({"body", std::make_shared<LawMaterial<Hooke>>(Parameters{}), 1.0});
+    model.state.points.resize(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        model.points.position[i] = model.points.initial_position[i] = positions[i];
-        model.points.volume[i] = model.points.initial_volume[i] = spacing * spacing * spacing;
-        model.points.mass[i] = density * model.points.volume[i];
-        model.points.id[i] = static_cast<std::int64_t>(i);
+        model.state.points.position[i] = model.state.points.initial_position[i] = positions[i];
+        model.state.points.volume[i] = model.state.points.initial_volume[i] = spacing * spacing * spacing;
+        model.state.points.mass[i] = density * model.state.points.volume[i];
+        model.state.points.id[i] = static_cast<std::int64_t>(i);
     }
     model.allocate();
     return model;
@@ -86,8 +86,8 @@ inline std::vector<Vector3> jittered(std::vector<Vector3> positions, double spac
 inline void set_velocity(Model& model, const std::function<Vector3(const Vector3&)>& velocity)
 {
     for (std::size_t i = 0; i < model.size(); ++i)
-        model.points.velocity[i] = velocity(model.points.position[i]);
-    model.update_records();
+        model.state.points.velocity[i] = velocity(model.state.points.position[i]);
+    model.gather_ends();
 }
 
 /// One value of the state of bond b of a point: row 0..5 stress, then state variables.
@@ -100,7 +100,7 @@ inline double& bond_value(Model& model, std::size_t point, std::size_t bond, std
 inline void set_stress(Model& model, const std::function<SymmetricTensor<double>(std::size_t, std::size_t)>& stress)
 {
     for (std::size_t i = 0; i < model.size(); ++i)
-        for (std::size_t b = 0; b < model.families[i].count; ++b) {
+        for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b) {
             const SymmetricTensor<double> s = stress(i, b);
             const double components[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
             for (std::size_t c = 0; c < 6; ++c)
@@ -110,7 +110,7 @@ inline void set_stress(Model& model, const std::function<SymmetricTensor<double>
 
 inline bool is_active(const Model& model, std::size_t point, std::size_t bond)
 {
-    return model.bonds.active.holds(model.families[point], bond);
+    return model.result.active.holds(model.neighbourhood.families[point], bond);
 }
 
 /// Every force state with every influence function, built for a horizon.
@@ -134,7 +134,7 @@ inline Eigen::Matrix3d force_moment(const Model& model)
 {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < model.size(); ++i)
-        sum += model.internal_force[i] * model.points.position[i].transpose();
+        sum += model.result.internal_force[i] * model.state.points.position[i].transpose();
     return sum;
 }
 

@@ -35,7 +35,7 @@ inline bool between_points_of_two_bodies(const ContactAssignment& assignment)
 class RigidContactSurface {
 public:
     RigidContactSurface(const Model& model, const ContactAssignment& assignment)
-        : obstacle_(assignment.obstacle ? &model.obstacles[*assignment.obstacle] : nullptr),
+        : obstacle_(assignment.obstacle ? &model.state.obstacles[*assignment.obstacle] : nullptr),
           own_(assignment.law->surface())
     {
     }

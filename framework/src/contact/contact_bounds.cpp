@@ -45,13 +45,13 @@ void ContactForces::find_bounds(const Model& model, double part_of_margin, const
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
         if (!takes(a))
             continue;
-        const double at_surfaces = part_of_margin * surface_margin * model.spacing;
+        const double at_surfaces = part_of_margin * surface_margin * model.state.spacing;
         if (at_rigid_surface(assignments_[a]))
             bound_surface(model, a, at_surfaces);
         else if (assignments_[a].surface_body)
             bound_supported(model, a, at_surfaces);
         else
-            bound_pairs(model, a, part_of_margin * pair_margin * model.spacing);
+            bound_pairs(model, a, part_of_margin * pair_margin * model.state.spacing);
     }
     sharpest_ = 0.0;
     for (const ContactBound& bound : bounds_)
@@ -84,7 +84,7 @@ double ContactForces::sharpest_possible(const Model& model, std::size_t assignme
 {
     const ContactAssignment& at = assignments_[assignment];
     const Contact& law = *at.law;
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     double largest = 0.0;
     if (at_rigid_surface(at)) {
         for (std::size_t i = 0; i < model.size(); ++i)
@@ -113,11 +113,11 @@ void ContactForces::bound_surface(const Model& model, std::size_t assignment, do
         return;
     for (const std::uint32_t i : near_surface_[assignment]) {
         Vector3 normal;
-        if (surface.distance(model.points.position[i], normal) >= at.law->cutoff() + margin)
+        if (surface.distance(model.state.points.position[i], normal) >= at.law->cutoff() + margin)
             continue;
-        const double mass = model.points.mass[i];
-        const ContactPair pair{0.0, 0.0, model.points.volume[i], 0.0, mass, 0.0};
-        if (surface.may_hold_in_corner(model.points.position[i], at.law->cutoff() + margin))
+        const double mass = model.state.points.mass[i];
+        const ContactPair pair{0.0, 0.0, model.state.points.volume[i], 0.0, mass, 0.0};
+        if (surface.may_hold_in_corner(model.state.points.position[i], at.law->cutoff() + margin))
             add_everywhere(bounds_[i], pair, slopes(*at.law, pair), 1.0 / mass);
         else
             add(bounds_[i], normal, pair, slopes(*at.law, pair), 1.0 / mass);

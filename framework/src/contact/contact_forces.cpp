@@ -59,19 +59,19 @@ void ContactForces::find_candidates_among_points(const Model& model, double slac
 
 void ContactForces::follow_surfaces(const Model& model)
 {
-    const std::vector<Vector3>& positions = model.points.position;
+    const std::vector<Vector3>& positions = model.state.points.position;
     if (std::ranges::none_of(assignments_, at_rigid_surface))
         return;
-    if (searched_.size() != positions.size() || searched_shifts_.size() != model.obstacles.size())
+    if (searched_.size() != positions.size() || searched_shifts_.size() != model.state.obstacles.size())
         return find_near_surfaces(model);
     double points = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : points)
     for (std::size_t i = 0; i < positions.size(); ++i)
         points = std::max(points, (positions[i] - searched_[i]).squaredNorm());
     double obstacles = 0.0;
-    for (std::size_t o = 0; o < model.obstacles.size(); ++o)
-        obstacles = std::max(obstacles, (model.obstacles[o].shift - searched_shifts_[o]).norm());
-    if (std::sqrt(points) + obstacles > surface_skin * model.spacing)
+    for (std::size_t o = 0; o < model.state.obstacles.size(); ++o)
+        obstacles = std::max(obstacles, (model.state.obstacles[o].shift - searched_shifts_[o]).norm());
+    if (std::sqrt(points) + obstacles > surface_skin * model.state.spacing)
         find_near_surfaces(model);
 }
 
@@ -79,16 +79,16 @@ void ContactForces::find_near_surfaces(const Model& model)
 {
     const std::vector<Vector3> searched = std::move(searched_);
     const std::vector<Vector3> searched_shifts = std::move(searched_shifts_);
-    searched_ = model.points.position;
-    searched_shifts_.resize(model.obstacles.size());
-    std::ranges::transform(model.obstacles, searched_shifts_.begin(), &Obstacle::shift);
+    searched_ = model.state.points.position;
+    searched_shifts_.resize(model.state.obstacles.size());
+    std::ranges::transform(model.state.obstacles, searched_shifts_.begin(), &Obstacle::shift);
     list_near_surfaces(model);
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
         const ContactAssignment& assignment = assignments_[a];
         if (!assignment.obstacle)
             continue;
         std::vector<Vector3> places(model.size(), nowhere);
-        const bool was_free = searched.size() == model.size() && model.obstacles[*assignment.obstacle].present;
+        const bool was_free = searched.size() == model.size() && model.state.obstacles[*assignment.obstacle].present;
         for (const std::uint32_t i : near_surface_[a]) {
             if (free_place_[a].size() == model.size() && !is_nowhere(free_place_[a][i]))
                 places[i] = free_place_[a][i];
@@ -108,13 +108,13 @@ void ContactForces::list_near_surfaces(const Model& model)
         if (!at_rigid_surface(assignment))
             continue;
         const RigidContactSurface surface(model, assignment);
-        const double reach = assignment.law->cutoff() + (surface_margin + surface_skin) * model.spacing;
+        const double reach = assignment.law->cutoff() + (surface_margin + surface_skin) * model.state.spacing;
         const Vector3 shift = assignment.obstacle ? searched_shifts_[*assignment.obstacle] : Vector3(Vector3::Zero());
         FirstException failure; // of the geometry
 #pragma omp parallel for schedule(dynamic, 256)
         for (std::size_t i = 0; i < model.size(); ++i)
             failure.guard(i, [&] {
-                near[i] = names(assignment, model.points.body[i]) && surface.is_near(searched_[i] - shift, reach);
+                near[i] = names(assignment, model.state.points.body[i]) && surface.is_near(searched_[i] - shift, reach);
             });
         failure.rethrow();
         for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(model.size()); ++i)
@@ -144,10 +144,10 @@ void ContactForces::make_room(const Model& model)
             free_place_[a].assign(model.size(), nowhere);
         for (const std::uint32_t i : near_surface_[a]) {
             Vector3 normal;
-            const double distance = surface.distance(model.points.position[i], normal);
+            const double distance = surface.distance(model.state.points.position[i], normal);
             if (distance >= (1.0 - bearing_overlap) * reach)
                 continue;
-            const ContactPair pair{distance, 0.0, model.points.volume[i], 0.0, model.points.mass[i], 0.0};
+            const ContactPair pair{distance, 0.0, model.state.points.volume[i], 0.0, model.state.points.mass[i], 0.0};
             ContactResponse response;
             assignment.law->evaluate({&pair, 1}, {&response, 1});
             if (response.force > 0.0) // and not within the reach of a pull
@@ -160,7 +160,7 @@ void ContactForces::resume(const Model& model, double slack)
 {
     const bool tracked = !searched_.empty();
     bool fits = stored_.point.size() == stored_.obstacle.size() && stored_.point.size() == stored_.energy.size() &&
-                (!tracked || searched_shifts_.size() == model.obstacles.size());
+                (!tracked || searched_shifts_.size() == model.state.obstacles.size());
     for (std::size_t a = 0; a < assignments_.size(); ++a)
         fits = fits && (!tracked || !assignments_[a].obstacle || free_place_[a].size() == model.size());
     if (!fits)
@@ -181,12 +181,13 @@ void ContactForces::push(const Model& model, std::size_t assignment, const Conta
 {
     const ContactAssignment& at = assignments_[assignment];
     const Vector3 velocity = RigidContactSurface(model, at).velocity();
-    const auto obstacle = at.obstacle.value_or(static_cast<std::uint32_t>(model.obstacles.size()));
+    const auto obstacle = at.obstacle.value_or(static_cast<std::uint32_t>(model.state.obstacles.size()));
     const Vector3 direction = way.faces == 1 ? way.normals[0] : Vector3(way.move.normalized());
     Vector3 reaction = response.force * direction;
     Vector3 damping = response.damping_force * direction;
     if (way.faces > 1 && approach_factor_ > 0.0) {
-        const Vector3 braking = brake_across(*at.law, pair, way, model.points.velocity[point] - velocity, reaction);
+        const Vector3 braking =
+            brake_across(*at.law, pair, way, model.state.points.velocity[point] - velocity, reaction);
         reaction += braking;
         damping += braking;
     }
@@ -237,8 +238,8 @@ void ContactForces::add_surface(const Model& model, std::size_t assignment, std:
     Vector3* const free_places = at.obstacle ? free_place_[assignment].data() : nullptr;
     for (const std::uint32_t i : near_surface_[assignment]) {
         Vector3 normal;
-        const Vector3 position = model.points.position[i] - shift;
-        const double distance = surface.distance(model.points.position[i], normal);
+        const Vector3 position = model.state.points.position[i] - shift;
+        const double distance = surface.distance(model.state.points.position[i], normal);
         double own_reach = reach;
         if (!room.empty())
             own_reach = room[i] = std::clamp(distance, room[i], reach);
@@ -258,10 +259,10 @@ void ContactForces::add_surface(const Model& model, std::size_t assignment, std:
         note_overlap(assignment, overlap / reach);
         const Vector3 direction = met.way.faces == 1 ? met.way.normals[0] : Vector3(met.way.move / overlap);
         pairs[count] = {reach - overlap,
-                        -approach_factor_ * (model.points.velocity[i] - velocity).dot(direction),
-                        model.points.volume[i],
+                        -approach_factor_ * (model.state.points.velocity[i] - velocity).dot(direction),
+                        model.state.points.volume[i],
                         0.0,
-                        model.points.mass[i],
+                        model.state.points.mass[i],
                         0.0,
                         law_step_};
         touching[count] = i;
@@ -281,7 +282,7 @@ void ContactForces::add_reactions(const Model& model, double time_step, Approach
     damping_.assign(model.size(), Vector3::Zero());
     obstacle_power_ = {};
     crossings_.clear();
-    obstacle_reactions_.assign(model.obstacles.size() + 1, Vector3::Zero());
+    obstacle_reactions_.assign(model.state.obstacles.size() + 1, Vector3::Zero());
     energy_let_go_ = 0.0;
     surface_contacts_.clear();
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
@@ -312,7 +313,7 @@ void ContactForces::add_surface_friction(const Model& model, double time_step, s
     for (const SurfaceContact& contact : surface_contacts_) {
         const std::uint32_t i = contact.point;
         const Vector3 drive =
-            force[i] + model.points.mass[i] / time_step * (model.points.velocity[i] - contact.velocity);
+            force[i] + model.state.points.mass[i] / time_step * (model.state.points.velocity[i] - contact.velocity);
         const Vector3 tangential = drive - drive.dot(contact.normal) * contact.normal;
         const double size = tangential.norm();
         if (size <= 0.0)

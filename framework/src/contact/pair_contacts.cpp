@@ -5,7 +5,7 @@
 #include "contact/assignment.hpp"
 #include "contact/contact_forces.hpp"
 #include "contact/contact_slopes.hpp"
-#include "families/cell_list.hpp"
+#include "neighbourhood/cell_list.hpp"
 #include "periporo/first_exception.hpp"
 
 #include <algorithm>
@@ -24,10 +24,10 @@ Bounds box_of(const Model& model, std::uint32_t body, double reach)
 {
     Bounds box{Vector3::Constant(std::numeric_limits<double>::infinity()),
                Vector3::Constant(-std::numeric_limits<double>::infinity())};
-    for (std::uint32_t c = 0; c < model.records.size(); ++c)
-        if (model.points.body[model.families.parent(c)] == body) {
-            box.lower = box.lower.cwiseMin(model.records[c].x());
-            box.upper = box.upper.cwiseMax(model.records[c].x());
+    for (std::uint32_t c = 0; c < model.ends.size(); ++c)
+        if (model.state.points.body[model.neighbourhood.families.parent(c)] == body) {
+            box.lower = box.lower.cwiseMin(model.ends[c].x());
+            box.upper = box.upper.cwiseMax(model.ends[c].x());
         }
     box.lower.array() -= reach;
     box.upper.array() += reach;
@@ -46,19 +46,19 @@ void ContactForces::find_pairs(const Model& model, std::size_t assignment, doubl
     const ContactAssignment& at = assignments_[assignment];
     const std::size_t n = model.size();
     // Images were made within the horizon; a cut-off is shorter than that. The margin is that of bounds().
-    const double reach = at.law->cutoff() + slack + pair_margin * model.spacing;
+    const double reach = at.law->cutoff() + slack + pair_margin * model.state.spacing;
     // Only what lies in the box of the other body, widened by the reach, can touch it.
     std::array<Bounds, 2> boxes;
     for (std::size_t b = 0; b < 2; ++b)
         boxes[b] = box_of(model, at.bodies[b], reach);
     std::vector<std::uint32_t> near;
     std::vector<Vector3> positions;
-    for (std::uint32_t c = 0; c < model.records.size(); ++c) {
-        const std::uint32_t body = model.points.body[model.families.parent(c)];
-        if (!names(at, body) || !lies_in(boxes[body == at.bodies[0] ? 1 : 0], model.records[c].x()))
+    for (std::uint32_t c = 0; c < model.ends.size(); ++c) {
+        const std::uint32_t body = model.state.points.body[model.neighbourhood.families.parent(c)];
+        if (!names(at, body) || !lies_in(boxes[body == at.bodies[0] ? 1 : 0], model.ends[c].x()))
             continue;
         near.push_back(c);
-        positions.push_back(model.records[c].x());
+        positions.push_back(model.ends[c].x());
     }
     Candidates& candidates = candidates_[assignment];
     candidates.first.assign(n + 1, 0);
@@ -68,9 +68,9 @@ void ContactForces::find_pairs(const Model& model, std::size_t assignment, doubl
     std::size_t next = 0; // of near, which begins with points, in their order
     for (std::uint32_t i = 0; i < n; ++i) {
         if (next < near.size() && near[next] == i) {
-            const std::uint32_t body = model.points.body[i];
+            const std::uint32_t body = model.state.points.body[i];
             cells.visit_near(positions[next], [&](std::uint32_t c) {
-                if (model.points.body[model.families.parent(near[c])] != body &&
+                if (model.state.points.body[model.neighbourhood.families.parent(near[c])] != body &&
                     (positions[c] - positions[next]).squaredNorm() <= reach * reach)
                     candidates.neighbours.push_back(near[c]);
             });
@@ -83,13 +83,13 @@ void ContactForces::find_pairs(const Model& model, std::size_t assignment, doubl
 void ContactForces::find_pairs_apart(const Model& model, std::size_t assignment, double slack)
 {
     const ContactAssignment& at = assignments_[assignment];
-    const double reach = at.law->cutoff() + slack + pair_margin * model.spacing;
+    const double reach = at.law->cutoff() + slack + pair_margin * model.state.spacing;
     Candidates& candidates = candidates_[assignment];
     candidates.first.assign(model.size() + 1, 0);
     for (std::uint32_t i = 0; i < model.size(); ++i) {
-        if (model.points.body[i] == at.bodies[0])
-            for (const std::uint32_t c : model.families.apart(i))
-                if ((model.records[c].x() - model.records[i].x()).squaredNorm() <= reach * reach)
+        if (model.state.points.body[i] == at.bodies[0])
+            for (const std::uint32_t c : model.neighbourhood.families.apart(i))
+                if ((model.ends[c].x() - model.ends[i].x()).squaredNorm() <= reach * reach)
                     candidates.neighbours.push_back(c);
         candidates.first[i + 1] = candidates.neighbours.size();
     }
@@ -105,9 +105,9 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
     std::array<Vector3, block> normals;
     std::array<Vector3, block> slips;
     std::array<double, block> crowds; // contacts of the end that has more of them: each stops its share of the slip
-    const Points& points = model.points;
-    const Vector3 x = model.records[point].x();
-    const Vector3 v = model.records[point].v();
+    const Points& points = model.state.points;
+    const Vector3 x = model.ends[point].x();
+    const Vector3 v = model.ends[point].v();
     std::size_t count = 0;
     const auto flush = [&] {
         law.evaluate(std::span(pairs.data(), count), std::span(responses.data(), count));
@@ -128,15 +128,15 @@ void ContactForces::gather_pairs(const Model& model, const Contact& law, std::ui
         count = 0;
     };
     for (const std::uint32_t c : neighbours) {
-        const Vector3 apart = x - model.records[c].x();
+        const Vector3 apart = x - model.ends[c].x();
         const double distance = apart.norm();
-        const std::uint32_t p = model.families.parent(c);
+        const std::uint32_t p = model.neighbourhood.families.parent(c);
         const double touching = reach(p);
         if (distance >= touching || distance <= 0.0)
             continue;
         overlap_[point] = std::max(overlap_[point], (touching - distance) / touching);
         const Vector3 normal = apart / distance;
-        const Vector3 relative = v - model.records[c].v();
+        const Vector3 relative = v - model.ends[c].v();
         const double opening = relative.dot(normal);
         pairs[count] = {distance + (law.cutoff() - touching),
                         -approach_factor_ * opening,
@@ -161,14 +161,14 @@ void ContactForces::update_grain_reach(const Model& model, const ContactAssignme
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < model.size(); ++i) {
         double& reach = grain_reach_[i];
-        const bool loose = model.free_grain[i] != 0;
-        if (model.points.body[i] != assignment.bodies[0] || (!loose && reach <= -cutoff))
+        const bool loose = model.result.detached[i] != 0;
+        if (model.state.points.body[i] != assignment.bodies[0] || (!loose && reach <= -cutoff))
             continue;
         double nearest = cutoff;
-        const FamilyView family = model.families[i];
+        const FamilyView family = model.neighbourhood.families[i];
         for (const std::uint32_t c : std::span(family.neighbours, family.count))
-            if (loose || model.free_grain[model.families.parent(c)] != 0)
-                nearest = std::min(nearest, (model.records[c].x() - model.points.position[i]).norm());
+            if (loose || model.result.detached[model.neighbourhood.families.parent(c)] != 0)
+                nearest = std::min(nearest, (model.ends[c].x() - model.state.points.position[i]).norm());
         const bool just_came_loose = loose && reach < 0.0;
         const double size = just_came_loose ? nearest : std::max(std::abs(reach), nearest);
         reach = loose ? size : -size;
@@ -185,13 +185,13 @@ bool ContactForces::find_concerned(const Model& model, std::size_t assignment)
     for (std::size_t i = 0; i < model.size(); ++i) {
         if (!apart.of(i).empty())
             concerned_[i] = 1;
-        if (model.free_grain[i] == 0 || model.points.body[i] != body)
+        if (model.result.detached[i] == 0 || model.state.points.body[i] != body)
             continue;
         some = true;
         concerned_[i] = 1;
-        const FamilyView family = model.families[i];
+        const FamilyView family = model.neighbourhood.families[i];
         for (std::size_t b = 0; b < family.count; ++b)
-            concerned_[model.families.parent(family.neighbours[b])] = 1;
+            concerned_[model.neighbourhood.families.parent(family.neighbours[b])] = 1;
     }
     return some;
 }
@@ -224,9 +224,10 @@ void ContactForces::for_each_touching(const Model& model, std::size_t assignment
             if (concerned_[i] == 0)
                 return;
             partners.clear();
-            const FamilyView family = model.families[i];
+            const FamilyView family = model.neighbourhood.families[i];
             for (std::size_t b = 0; b < family.count; ++b)
-                if (model.free_grain[i] != 0 || model.free_grain[model.families.parent(family.neighbours[b])] != 0)
+                if (model.result.detached[i] != 0 ||
+                    model.result.detached[model.neighbourhood.families.parent(family.neighbours[b])] != 0)
                     partners.push_back(family.neighbours[b]);
             visit(i, std::span<const std::uint32_t>(partners), [this, i](std::uint32_t other) {
                 return std::min(std::abs(grain_reach_[i]), std::abs(grain_reach_[other]));
@@ -248,8 +249,8 @@ void ContactForces::add_pairs(const Model& model, std::size_t assignment, double
     overlap_.assign(model.size(), 0.0);
     for_each_touching(model, assignment, [&](std::uint32_t i, std::span<const std::uint32_t> others, auto reach) {
         contacts_of_[i] += static_cast<std::uint32_t>(std::ranges::count_if(others, [&](std::uint32_t c) {
-            const double distance = (model.records[i].x() - model.records[c].x()).norm();
-            return distance < reach(model.families.parent(c)) && distance > 0.0;
+            const double distance = (model.ends[i].x() - model.ends[c].x()).norm();
+            return distance < reach(model.neighbourhood.families.parent(c)) && distance > 0.0;
         }));
     });
     const Contact& law = *assignments_[assignment].law;
@@ -267,28 +268,29 @@ std::vector<ClosedPair> ContactForces::closed_pairs(const Model& model) const
     std::vector<ClosedPair> closed;
     for (std::size_t a = 0; a < assignments_.size(); ++a) {
         const ContactAssignment& at = assignments_[a];
-        if (!within_one_body(at) || !model.bodies[at.bodies[0]].material->closes())
+        if (!within_one_body(at) || !model.state.bodies[at.bodies[0]].material->closes())
             continue;
         for (std::uint32_t i = 0; i < model.size(); ++i)
             for (const std::uint32_t c : candidates_[a].of(i)) {
-                const std::uint32_t p = model.families.parent(c);
-                const std::uint32_t opposite = model.isometries.inverse(model.families.isometry(c));
-                if (i > p || (i == p && model.families.isometry(c) > opposite))
+                const std::uint32_t p = model.neighbourhood.families.parent(c);
+                const std::uint32_t opposite =
+                    model.neighbourhood.isometries.inverse(model.neighbourhood.families.isometry(c));
+                if (i > p || (i == p && model.neighbourhood.families.isometry(c) > opposite))
                     continue; // seen from the other end
-                const Vector3 relative = model.records[i].v() - model.records[c].v();
-                const ContactPair pair{(model.records[i].x() - model.records[c].x()).norm(),
+                const Vector3 relative = model.ends[i].v() - model.ends[c].v();
+                const ContactPair pair{(model.ends[i].x() - model.ends[c].x()).norm(),
                                        0.0,
-                                       model.points.volume[i],
-                                       model.points.volume[p],
-                                       model.points.mass[i],
-                                       model.points.mass[p]};
+                                       model.state.points.volume[i],
+                                       model.state.points.volume[p],
+                                       model.state.points.mass[i],
+                                       model.state.points.mass[p]};
                 ContactResponse response;
                 at.law->evaluate({&pair, 1}, {&response, 1});
                 if (!(response.force > 0.0 &&
                       0.5 * reduced_mass(pair) * relative.squaredNorm() <= calm * response.energy))
                     continue;
-                closed.push_back({i, model.families.key(c)});
-                closed.push_back({p, model.families.opposite_key(i, c, model.isometries)});
+                closed.push_back({i, model.neighbourhood.families.key(c)});
+                closed.push_back({p, model.neighbourhood.families.opposite_key(i, c, model.neighbourhood.isometries)});
             }
     }
     std::ranges::sort(closed);
@@ -321,15 +323,15 @@ void ContactForces::bound_pairs(const Model& model, std::size_t assignment, doub
         return;
     const Contact& law = *assignments_[assignment].law;
     for_each_touching(model, assignment, [&](std::uint32_t i, std::span<const std::uint32_t> others, auto reach) {
-        const double mass = model.points.mass[i];
+        const double mass = model.state.points.mass[i];
         for (const std::uint32_t c : others) {
-            const std::uint32_t p = model.families.parent(c);
-            const Vector3 apart = model.records[i].x() - model.records[c].x();
+            const std::uint32_t p = model.neighbourhood.families.parent(c);
+            const Vector3 apart = model.ends[i].x() - model.ends[c].x();
             const double distance = apart.norm();
             if (!(distance > 0.0 && distance < reach(p) + margin))
                 continue;
             const ContactPair pair{
-                0.0, 0.0, model.points.volume[i], model.points.volume[p], mass, model.points.mass[p]};
+                0.0, 0.0, model.state.points.volume[i], model.state.points.volume[p], mass, model.state.points.mass[p]};
             add(bounds_[i], apart / distance, pair, slopes(law, pair), 2.0 / mass);
         }
     });

@@ -14,8 +14,8 @@ namespace {
 /// A force on a point or on an image, as a force on the point that it stands for.
 void give(const Model& model, std::uint32_t record, const Vector3& force, std::vector<Vector3>& forces)
 {
-    const Isometry& isometry = model.isometries[model.families.isometry(record)];
-    forces[model.families.parent(record)] += isometry.rotation.transpose() * force;
+    const Isometry& isometry = model.neighbourhood.isometries[model.neighbourhood.families.isometry(record)];
+    forces[model.neighbourhood.families.parent(record)] += isometry.rotation.transpose() * force;
 }
 
 } // namespace
@@ -34,7 +34,8 @@ void ContactForces::find_supported_points(const Model& model, std::size_t assign
         supported.point = surface.near()[n];
         ++supported_count_;
         for (std::size_t m = 0; m < supported.support.records.size(); ++m)
-            shared_weight_[model.families.parent(supported.support.records[m])] += supported.support.slopes[m].norm();
+            shared_weight_[model.neighbourhood.families.parent(supported.support.records[m])] +=
+                supported.support.slopes[m].norm();
     }
 }
 
@@ -42,10 +43,10 @@ ContactForces::Carrier ContactForces::carrier(const Model& model, const Support&
 {
     Carrier carrier;
     for (std::size_t m = 0; m < support.records.size(); ++m) {
-        const std::uint32_t p = model.families.parent(support.records[m]);
-        carrier.volume += support.weights[m] * model.points.volume[p];
+        const std::uint32_t p = model.neighbourhood.families.parent(support.records[m]);
+        carrier.volume += support.weights[m] * model.state.points.volume[p];
         const double own = support.slopes[m].norm();
-        carrier.mobility += own * (crowd.empty() ? own : crowd[p]) / model.points.mass[p];
+        carrier.mobility += own * (crowd.empty() ? own : crowd[p]) / model.state.points.mass[p];
     }
     return carrier;
 }
@@ -55,12 +56,12 @@ void ContactForces::press(const Model& model, std::size_t assignment, const Supp
 {
     const Contact& law = *assignments_[assignment].law;
     const Support& support = supported.support;
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     const std::uint32_t i = supported.point;
     Vector3 surface_velocity = Vector3::Zero();
-    double opening = support.own_slope.dot(model.records[i].v());
+    double opening = support.own_slope.dot(model.ends[i].v());
     for (std::size_t m = 0; m < support.records.size(); ++m) {
-        const Vector3 velocity = model.records[support.records[m]].v();
+        const Vector3 velocity = model.ends[support.records[m]].v();
         surface_velocity += support.weights[m] * velocity;
         opening += support.slopes[m].dot(velocity);
     }
@@ -72,7 +73,7 @@ void ContactForces::press(const Model& model, std::size_t assignment, const Supp
     note_overlap(assignment, (law.cutoff() - support.distance) / law.cutoff());
     point_energy_[i] += support.strength * response.energy;
 
-    const Vector3 relative = model.records[i].v() - surface_velocity;
+    const Vector3 relative = model.ends[i].v() - surface_velocity;
     const Vector3 slip = relative - relative.dot(support.normal) * support.normal;
     const double speed = slip.norm();
     const double pressing = support.strength * std::max(0.0, response.force);
@@ -117,7 +118,7 @@ void ContactForces::energy_on_smoothed(const Model& model, std::vector<double>& 
             const auto& [i, support] = supported_[s];
             const Carrier alone = carrier(model, support, {});
             const ContactPair pair{
-                support.distance,     0.0, model.points.volume[i], alone.volume, model.points.mass[i],
+                support.distance,     0.0, model.state.points.volume[i], alone.volume, model.state.points.mass[i],
                 1.0 / alone.mobility, 0.0};
             ContactResponse response;
             law.evaluate({&pair, 1}, {&response, 1});
@@ -135,9 +136,9 @@ void ContactForces::bound_supported(const Model& model, std::size_t assignment, 
     find_supported_points(model, assignment, law.cutoff() + margin);
     for (std::size_t s = 0; s < supported_count_; ++s) {
         const auto& [i, support] = supported_[s];
-        const double mass = model.points.mass[i];
+        const double mass = model.state.points.mass[i];
         const Carrier alone = carrier(model, support, {});
-        const ContactPair pair{0.0, 0.0, model.points.volume[i], alone.volume, mass, 1.0 / alone.mobility};
+        const ContactPair pair{0.0, 0.0, model.state.points.volume[i], alone.volume, mass, 1.0 / alone.mobility};
         const ContactSlopes both = slopes(law, pair);
         add(bounds_[i], support.own_slope, pair, both, 2.0 / mass);
         double sum = 0.0;
@@ -147,10 +148,11 @@ void ContactForces::bound_supported(const Model& model, std::size_t assignment, 
             const double size = support.slopes[m].norm();
             if (size <= 0.0)
                 continue;
-            const std::uint32_t p = model.families.parent(support.records[m]);
-            const Isometry& isometry = model.isometries[model.families.isometry(support.records[m])];
+            const std::uint32_t p = model.neighbourhood.families.parent(support.records[m]);
+            const Isometry& isometry =
+                model.neighbourhood.isometries[model.neighbourhood.families.isometry(support.records[m])];
             add(bounds_[p], isometry.rotation.transpose() * support.slopes[m] / size, pair, both,
-                2.0 * sum * size / model.points.mass[p]);
+                2.0 * sum * size / model.state.points.mass[p]);
         }
     }
 }

@@ -3,7 +3,7 @@
 //
 #include "contact/smoothed_surface.hpp"
 
-#include "families/cell_list.hpp"
+#include "neighbourhood/cell_list.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,10 +42,10 @@ Step smooth_step(double x, double from, double to)
 /// Direction away from the family of a point, or zero when the family is on all sides alike.
 Vector3 outward_normal(const Model& model, std::size_t point)
 {
-    const FamilyView family = model.families[point];
+    const FamilyView family = model.neighbourhood.families[point];
     Vector3 inward = Vector3::Zero();
     for (std::size_t b = 0; b < family.count; ++b)
-        inward += (model.records[family.neighbours[b]].x() - model.records[point].x()).normalized();
+        inward += (model.ends[family.neighbours[b]].x() - model.ends[point].x()).normalized();
     const double size = inward.norm();
     return size > 0.0 ? Vector3(-inward / size) : Vector3(Vector3::Zero());
 }
@@ -53,15 +53,15 @@ Vector3 outward_normal(const Model& model, std::size_t point)
 /// 1 for a point at the surface, 0 for one below it.
 double share_in_surface(const Model& model, std::size_t point, const Vector3& normal)
 {
-    const FamilyView family = model.families[point];
+    const FamilyView family = model.neighbourhood.families[point];
     double share = 1.0;
     for (std::size_t b = 0; b < family.count && share > 0.0; ++b) {
-        const Vector3 apart = model.records[family.neighbours[b]].x() - model.records[point].x();
+        const Vector3 apart = model.ends[family.neighbours[b]].x() - model.ends[point].x();
         const double distance = apart.norm();
-        if (distance >= free_distance * model.spacing || apart.dot(normal) <= free_cosine * distance)
+        if (distance >= free_distance * model.state.spacing || apart.dot(normal) <= free_cosine * distance)
             continue;
         const double above = smooth_step(apart.dot(normal) / distance, free_cosine, covered_cosine).value;
-        const double close = smooth_step(distance / model.spacing, free_distance, covered_distance).value;
+        const double close = smooth_step(distance / model.state.spacing, free_distance, covered_distance).value;
         share = std::min(share, 1.0 - above * close);
     }
     return share;
@@ -76,16 +76,18 @@ void SmoothedSurface::find_nodes(const Model& model, std::uint32_t surface_body)
     std::vector<Vector3> normals(n, Vector3::Zero());
     std::vector<double> shares(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-        if (model.points.body[i] != surface_body)
+        if (model.state.points.body[i] != surface_body)
             continue;
         normals[i] = outward_normal(model, i);
         if (!normals[i].isZero(0.0))
             shares[i] = share_in_surface(model, i, normals[i]);
     }
-    for (std::uint32_t c = 0; c < model.records.size(); ++c) {
-        const std::uint32_t p = model.families.parent(c);
+    for (std::uint32_t c = 0; c < model.ends.size(); ++c) {
+        const std::uint32_t p = model.neighbourhood.families.parent(c);
         if (shares[p] > 0.0)
-            nodes_.push_back({c, model.isometries[model.families.isometry(c)].direction(normals[p]), shares[p]});
+            nodes_.push_back(
+                {c, model.neighbourhood.isometries[model.neighbourhood.families.isometry(c)].direction(normals[p]),
+                 shares[p]});
     }
 }
 
@@ -95,21 +97,21 @@ void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::
     near_.clear();
     candidates_.clear();
     first_.assign(1, 0);
-    spacing_ = model.spacing;
-    reach_ = std::hypot(support_radius * model.spacing, reach + 0.5 * model.spacing);
+    spacing_ = model.state.spacing;
+    reach_ = std::hypot(support_radius * model.state.spacing, reach + 0.5 * model.state.spacing);
     find_nodes(model, surface_body);
     shares_.clear();
     outwards_.clear();
     if (nodes_.empty())
         return;
     std::vector<Vector3> positions(nodes_.size());
-    std::ranges::transform(nodes_, positions.begin(), [&](const Node& node) { return model.records[node.record].x(); });
+    std::ranges::transform(nodes_, positions.begin(), [&](const Node& node) { return model.ends[node.record].x(); });
     const double search = reach_ + slack;
     const CellList cells(positions, search);
     for (std::uint32_t i = 0; i < model.size(); ++i) {
-        if (model.points.body[i] != other_body)
+        if (model.state.points.body[i] != other_body)
             continue;
-        const Vector3 x = model.records[i].x();
+        const Vector3 x = model.ends[i].x();
         cells.visit_near(x, [&](std::uint32_t node) {
             if ((positions[node] - x).squaredNorm() <= search * search)
                 candidates_.push_back(node);
@@ -126,12 +128,12 @@ void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::
 
 void SmoothedSurface::weigh_sides(const Model& model, std::size_t n, double slack)
 {
-    const Vector3 x = model.records[near_[n]].x();
+    const Vector3 x = model.ends[near_[n]].x();
     const double search = reach_ + slack;
     Vector3& outwards = outwards_[n];
     for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
         const Node& node = nodes_[candidates_[c]];
-        const double squared = (model.records[node.record].x() - x).squaredNorm() / (search * search);
+        const double squared = (model.ends[node.record].x() - x).squaredNorm() / (search * search);
         outwards += node.share * bell(squared).value * node.normal;
     }
     outwards.normalize();
@@ -143,10 +145,10 @@ void SmoothedSurface::weigh_sides(const Model& model, std::size_t n, double slac
 
 PlaneFit SmoothedSurface::fit(const Model& model, std::size_t n) const
 {
-    const Vector3 x = model.records[near_[n]].x();
+    const Vector3 x = model.ends[near_[n]].x();
     PlaneFit plane;
     for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
-        const Vector3 place = model.records[nodes_[candidates_[c]].record].x() - x;
+        const Vector3 place = model.ends[nodes_[candidates_[c]].record].x() - x;
         const double weight = shares_[c] * bell(place.squaredNorm() / (reach_ * reach_)).value;
         if (weight > 0.0)
             plane.add(weight, place);
@@ -156,7 +158,7 @@ PlaneFit SmoothedSurface::fit(const Model& model, std::size_t n) const
 
 bool SmoothedSurface::find_support(const Model& model, std::size_t n, Support& support) const
 {
-    const Vector3 x = model.records[near_[n]].x();
+    const Vector3 x = model.ends[near_[n]].x();
     const double per_area = 1.0 / (spacing_ * spacing_), per_reach = 1.0 / (reach_ * reach_);
     PlaneFit plane = fit(model, n);
     if (!plane.solve(outwards_[n]) || plane.spread() * per_area <= least_spread)
@@ -173,7 +175,7 @@ bool SmoothedSurface::find_support(const Model& model, std::size_t n, Support& s
     support.own_fade.setZero();
     for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
         const std::uint32_t record = nodes_[candidates_[c]].record;
-        const Vector3 place = model.records[record].x() - x;
+        const Vector3 place = model.ends[record].x() - x;
         const Bell around = bell(place.squaredNorm() * per_reach);
         const double weight = shares_[c] * around.value;
         if (weight <= 0.0)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "model/model.hpp"
+#include "operator/evaluation.hpp"
 #include "operator/transpose.hpp"
 #include "periporo/material.hpp"
 
@@ -14,75 +15,76 @@
 namespace periporo {
 
 /// Sums internal_force_i = V_i sum_j V_j (T_ij - T_ji) bond by bond: V_i V_j T_ij goes to i and, reversed, to j; that
-/// of a bond to an image goes, mirrored, to its parent. Forces of a block of points gather at the places of its halo
-/// and are handed out afterwards, so that no result depends on the number of threads.
+/// of a bond to an image goes, mirrored, to its point. The forces of a block of points are summed in its accumulators
+/// and distributed afterwards, so that no result depends on the number of threads.
 class BondForces {
 public:
     /// Before the first block of an evaluation: room, and no forces.
-    static void prepare(Model& model)
+    static void prepare(const BlockAccumulators& blocks, OperatorWorkspace& workspace, OperatorResult& result)
     {
-        model.at_places.resize(model.halos.places() * place_stride);
-        std::fill(model.internal_force.begin(), model.internal_force.end(), Vector3::Zero());
+        workspace.accumulators.resize(blocks.size() * stride);
+        std::fill(result.internal_force.begin(), result.internal_force.end(), Vector3::Zero());
     }
 
-    /// Begins a block: its places are empty.
-    BondForces(Model& model, std::size_t block)
-        : halos_(model.halos), first_point_(model.halos.first_point(block)),
-          places_(model.at_places.data() + model.halos.first_place(block) * place_stride)
+    /// Begins a block: its accumulators are zero.
+    BondForces(const BlockAccumulators& blocks, std::size_t block, OperatorWorkspace& workspace)
+        : blocks_(blocks), first_point_(blocks.first_point(block)),
+          sums_(workspace.accumulators.data() + blocks.first(block) * stride)
     {
-        std::fill(places_, model.at_places.data() + model.halos.first_place(block + 1) * place_stride, 0.0);
+        std::fill(sums_, workspace.accumulators.data() + blocks.first(block + 1) * stride, 0.0);
     }
 
-    /// Takes the forces of a pack of bonds, V_i V_j T_ij of the first `bonds` lanes [N], from the neighbours.
-    void take_from_neighbours(std::size_t pack, std::size_t bonds, const std::array<Pack, 3>& force)
+    /// Subtracts the forces of a pack of bonds, V_i V_j T_ij of the first `bonds` lanes [N], from the neighbours.
+    void subtract_from_neighbours(std::size_t pack, std::size_t bonds, const std::array<Pack, 3>& force)
     {
-        take(halos_.place_of_neighbours(pack), bonds, force, [](std::size_t) { return true; });
+        subtract(blocks_.of_neighbours(pack), bonds, force, [](std::size_t) { return true; });
     }
 
-    /// The same for a pack of bonds that the point holds, without those to images: their parents hold the mirrored
-    /// bond.
-    void take_from_points(const Model& model, const FamilyView& family, const HeldBonds& held, std::size_t pack,
-                          const std::array<Pack, 3>& force)
+    /// The same for a pack of bonds that the point holds, without those to images: their points hold the mirrored bond.
+    /// @param points number of points
+    void subtract_from_points(std::size_t points, const FamilyView& family, const HeldBonds& held, std::size_t pack,
+                              const std::array<Pack, 3>& force)
     {
         const std::size_t first = pack * pack_width;
-        take(halos_.place_of_neighbours(family.first_pack) + held.first + first, held.bonds_in(pack), force,
-             [&](std::size_t lane) { return held.neighbours[first + lane] < model.size(); });
+        subtract(blocks_.of_neighbours(family.first_pack) + held.first + first, held.bonds_in(pack), force,
+                 [&](std::size_t lane) { return held.neighbours[first + lane] < points; });
     }
 
-    /// Gives the sum of the forces of its bonds to a point of the block.
-    void give_to(std::size_t point, const std::array<Pack, 3>& force)
+    /// Adds the sum of the forces of its bonds to a point of the block.
+    void add_to(std::size_t point, const std::array<Pack, 3>& force)
     {
-        double* at = places_ + (point - first_point_) * place_stride;
+        double* at = sums_ + (point - first_point_) * stride;
         for (std::size_t c = 0; c < 3; ++c)
             at[c] += reduce(force[c]);
     }
 
-    /// After the last block: adds what has gathered to the internal forces of all points, which are zero before unless
-    /// something else was put there.
-    static void hand_out(Model& model);
+    /// After the last block: adds the contributions of all blocks to the internal forces of the points.
+    static void distribute(const Neighbourhood& neighbourhood, const OperatorWorkspace& workspace,
+                           OperatorResult& result);
 
 private:
-    /// Takes the forces of the lanes for which concerns(lane) holds.
+    /// Subtracts the forces of the lanes for which concerns(lane) holds.
     template <class Concerns>
-    void take(const std::uint16_t* place, std::size_t bonds, const std::array<Pack, 3>& force, Concerns&& concerns)
+    void subtract(const std::uint16_t* accumulator, std::size_t bonds, const std::array<Pack, 3>& force,
+                  Concerns&& concerns)
     {
-        alignas(64) double rows[pack_width * place_stride];
+        alignas(64) double rows[pack_width * stride];
         store_rows_of_lanes(force, rows);
         for (std::size_t lane = 0; lane < bonds; ++lane) {
             if (!concerns(lane))
                 continue;
-            double* at = places_ + place[lane] * place_stride;
-            (load_place(at) - load_place(rows + lane * place_stride)).copy_to(at, std::experimental::vector_aligned);
+            double* at = sums_ + accumulator[lane] * stride;
+            (load_sum(at) - load_sum(rows + lane * stride)).copy_to(at, std::experimental::vector_aligned);
         }
     }
 
-    static constexpr std::size_t place_stride = 4;
-    using Place = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, place_stride>>;
-    static Place load_place(const double* at) { return Place(at, std::experimental::vector_aligned); }
+    static constexpr std::size_t stride = 4; // three components of force, and one that fills the vector
+    using Sum = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, stride>>;
+    static Sum load_sum(const double* at) { return Sum(at, std::experimental::vector_aligned); }
 
-    const Halos& halos_;
+    const BlockAccumulators& blocks_;
     std::size_t first_point_;
-    double* places_;
+    double* sums_; // of the block
 };
 
 /// Keeps the failure of the first point, whichever thread met it.
@@ -97,7 +99,7 @@ public:
         }
     }
     /// @throws MaterialFailure when one was reported.
-    void raise(const Model& model) const;
+    void raise(const State& state, const Families& families) const;
 
 private:
     std::size_t point_ = std::numeric_limits<std::size_t>::max();

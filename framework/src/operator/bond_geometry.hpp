@@ -4,7 +4,7 @@
 // Where the neighbours of a point are and how they move, one bond a lane.
 #pragma once
 
-#include "model/model.hpp"
+#include "neighbourhood/bond_ends.hpp"
 #include "operator/bond_vector.hpp"
 #include "operator/influence.hpp"
 #include "operator/transpose.hpp"
@@ -20,12 +20,12 @@ struct BondGeometry {
     Pack omega;        ///< zero in lanes without a bond
     Pack volume;       ///< of the neighbour
 
-    BondGeometry(const Model& model, std::size_t point, const std::uint32_t* neighbours, const PackMask& bonds,
+    BondGeometry(const BondEnds& ends, std::size_t point, const std::uint32_t* neighbours, const PackMask& bonds,
                  const Influence& influence)
     {
-        const NeighbourRecord& self = model.records[point];
+        const BondEnd& self = ends[point];
         const std::array<Pack, 8> other =
-            load_transposed<8>([&](std::size_t lane) { return model.records[neighbours[lane]].position; });
+            load_transposed<8>([&](std::size_t lane) { return ends[neighbours[lane]].position; });
         for (std::size_t c = 0; c < 3; ++c) {
             zeta[c] = other[c] - self.position[c];
             motion[c] = other[4 + c] - self.velocity[c];

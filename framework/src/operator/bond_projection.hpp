@@ -22,9 +22,11 @@ class BondProjectionForceState : public ForceState {
 public:
     using ForceState::ForceState;
 
-    void evaluate(Model& model, const Evaluation& evaluation) const override;
-    void shares(const Model& model, std::size_t point, std::span<double> shares) const override;
-    bool shares_bonds() const override { return true; }
+    using ForceState::evaluate;
+    void evaluate(const OperatorInput& input, const Evaluation& evaluation, BondStates& bonds,
+                  OperatorWorkspace& workspace, OperatorResult& result) const override;
+    void bond_weights(const Model& model, std::size_t point, std::span<double> weights) const override;
+    StressSite stress_site() const override { return StressSite::pairs; }
 };
 
 } // namespace periporo

@@ -1,6 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// Calls the material for all bonds of a point.
 #include "operator/bond_update.hpp"
 
 namespace periporo {
@@ -17,26 +18,25 @@ void StressWorkspace::reserve(std::size_t packs)
     lanes.resize(packs);
 }
 
-void gather_water(const Model& model, std::size_t point, const std::uint32_t* neighbours, std::size_t packs,
+void gather_water(const BondEnds& ends, std::size_t point, const std::uint32_t* neighbours, std::size_t packs,
                   StressWorkspace& workspace)
 {
-    const Points& points = model.points;
     for (std::size_t b = 0; b < packs * pack_width; ++b) {
-        const std::uint32_t other = model.families.parent(neighbours[b]);
-        workspace.suction[b] = 0.5 * (points.suction(point) + points.suction(other));
-        workspace.saturation[b] = 0.5 * (points.saturation[point] + points.saturation[other]);
+        const EndWater water = ends.water_between(point, neighbours[b]);
+        workspace.suction[b] = water.suction;
+        workspace.saturation[b] = water.saturation;
     }
 }
 
-BondStress::BondStress(const Model& model, std::size_t point, const std::uint32_t* neighbours, std::size_t packs,
-                       double* state, const Evaluation& evaluation, StressWorkspace& workspace)
-    : evaluation_(evaluation), workspace_(workspace), material_(*model.body_of(point).material), packs_(packs),
-      rows_(model.rows(point)), state_(state), bulk_modulus_(material_.bulk_modulus()),
-      shear_modulus_(material_.shear_modulus()), wet_(model.wet)
+BondStress::BondStress(const OperatorInput& input, std::size_t point, const std::uint32_t* neighbours,
+                       std::size_t packs, double* state, const Evaluation& evaluation, StressWorkspace& workspace)
+    : evaluation_(evaluation), workspace_(workspace), material_(*input.state.body_of(point).material), packs_(packs),
+      rows_(input.state.rows(point)), state_(state), bulk_modulus_(material_.bulk_modulus()),
+      shear_modulus_(material_.shear_modulus()), wet_(input.ends.wet())
 {
     workspace_.reserve(packs);
     if (wet_)
-        gather_water(model, point, neighbours, packs, workspace_);
+        gather_water(input.ends, point, neighbours, packs, workspace_);
 }
 
 MaterialStatus BondStress::update()

@@ -5,8 +5,7 @@
 // force states.
 #pragma once
 
-#include "model/model.hpp"
-#include "operator/force_state.hpp"
+#include "operator/evaluation.hpp"
 #include "operator/transpose.hpp"
 #include "periporo/material_law.hpp"
 #include "water/pore_stress.hpp"
@@ -86,8 +85,9 @@ struct StressWorkspace {
     void reserve(std::size_t packs);
 };
 
-/// Suction and saturation of bonds of a point: means of the ends. `neighbours` fills whole packs.
-void gather_water(const Model& model, std::size_t point, const std::uint32_t* neighbours, std::size_t packs,
+/// Suction and saturation of bonds of a point: means of the ends, some of which are wet. `neighbours` fills whole
+/// packs.
+void gather_water(const BondEnds& ends, std::size_t point, const std::uint32_t* neighbours, std::size_t packs,
                   StressWorkspace& workspace);
 
 /// The stress of bonds of one point through one evaluation: begin() for every pack, then update(), then end() for
@@ -96,8 +96,8 @@ class BondStress {
 public:
     /// @param neighbours of the bonds, whole packs
     /// @param state rows of the bonds, as MaterialBatch has them
-    BondStress(const Model& model, std::size_t point, const std::uint32_t* neighbours, std::size_t packs, double* state,
-               const Evaluation& evaluation, StressWorkspace& workspace);
+    BondStress(const OperatorInput& input, std::size_t point, const std::uint32_t* neighbours, std::size_t packs,
+               double* state, const Evaluation& evaluation, StressWorkspace& workspace);
 
     /// Takes the velocity gradient of a pack [1/s], zero in inactive lanes: with respect to the positions in the middle
     /// of the step if stress is to be advanced, otherwise to those at hand. Rotates the old stress if it is to be

@@ -13,16 +13,16 @@ namespace periporo {
 Model periodic_lattice(const LatticeMedium& medium, const std::array<int, 3>& cells, const ForceState& force_state)
 {
     Model model;
-    model.spacing = medium.spacing;
-    model.horizon = medium.horizon;
-    model.bodies.push_back({"lattice", medium.material, 1.0});
-    model.points.resize(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]));
+    model.state.spacing = medium.spacing;
+    model.state.horizon = medium.horizon;
+    model.state.bodies.push_back({"lattice", medium.material, 1.0});
+    model.state.points.resize(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]));
     const double volume = std::pow(medium.spacing, 3);
     std::size_t at = 0;
     for (int k = 0; k < cells[2]; ++k)
         for (int j = 0; j < cells[1]; ++j)
             for (int i = 0; i < cells[0]; ++i, ++at) {
-                Points& points = model.points;
+                Points& points = model.state.points;
                 points.position[at] = points.initial_position[at] = medium.spacing * Vector3(i + 0.5, j + 0.5, k + 0.5);
                 points.volume[at] = points.initial_volume[at] = volume;
                 points.mass[at] = medium.density * volume;
@@ -32,7 +32,7 @@ Model periodic_lattice(const LatticeMedium& medium, const std::array<int, 3>& ce
     std::vector<Isometry> shifts;
     for (int axis = 0; axis < 3; ++axis)
         shifts.push_back(Isometry::shift(axis, medium.spacing * cells[static_cast<std::size_t>(axis)]));
-    model.isometries.set_generators(shifts);
+    model.neighbourhood.isometries.set_generators(shifts);
     find_first_families(model, force_state);
     return model;
 }
@@ -40,15 +40,15 @@ Model periodic_lattice(const LatticeMedium& medium, const std::array<int, 3>& ce
 double mode_frequency(Model& lattice, const ForceState& force_state, const Vector3& wave_vector,
                       const Vector3& polarisation)
 {
-    Points& points = lattice.points;
+    Points& points = lattice.state.points;
     for (std::size_t i = 0; i < lattice.size(); ++i)
         // the phase at the first point keeps waves at the edge of the zone from vanishing at every point
         points.velocity[i] = std::cos(wave_vector.dot(points.position[i] - points.position[0])) * polarisation;
-    lattice.update_records();
+    lattice.gather_ends();
     force_state.evaluate(lattice, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
     double stiffness = 0.0, mass = 0.0;
     for (std::size_t i = 0; i < lattice.size(); ++i) {
-        stiffness -= lattice.internal_force[i].dot(points.velocity[i]);
+        stiffness -= lattice.result.internal_force[i].dot(points.velocity[i]);
         mass += points.mass[i] * points.velocity[i].squaredNorm();
     }
     return std::copysign(std::sqrt(std::abs(stiffness) / mass), stiffness);

@@ -5,41 +5,15 @@
 #pragma once
 
 #include "model/model.hpp"
+#include "operator/evaluation.hpp"
 #include "operator/influence.hpp"
 
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace periporo {
-
-/// What an evaluation does with the stress of the bonds.
-enum class StressUpdate {
-    advance, ///< by the material over one step
-    keep,    ///< forces of the stress as it is
-    tangent  ///< forces of the stress C : D alone, velocities taken as displacements; state untouched
-};
-
-struct Evaluation {
-    StressUpdate stress = StressUpdate::advance;
-    MaterialResponse response = MaterialResponse::full;
-    double time_step = 0.0; ///< [s]
-
-    /// How far behind the positions lie those that velocity gradients refer to [s].
-    double gradient_lag() const { return stress == StressUpdate::advance ? 0.5 * time_step : 0.0; }
-};
-
-/// A material update that did not converge: where.
-class MaterialFailure : public std::runtime_error {
-public:
-    MaterialFailure(std::size_t point, const std::string& message) : std::runtime_error(message), point_(point) {}
-    std::size_t point() const { return point_; }
-
-private:
-    std::size_t point_;
-};
 
 /// A sub-horizon thinner than this carries no stress: with K_b the shape tensor, omega_i the mean influence in the
 /// family and V(H_b) the volume, the squared thickness is 1/(tr(K_b^-1) omega_i V(H_b)), here over the second moment of
@@ -63,6 +37,12 @@ inline constexpr double least_shape_quality = 0.15;
 /// stress, and `energy_conjugate` asks for (|zeta|/l)^2 of the agreement, l being this length.
 inline constexpr double shortest_bond = 0.35;
 
+/// Where stresses live. Refresh, hand-over, initial stress, fields and checkpoints follow it by way of BondStates.
+enum class StressSite {
+    bonds, ///< (i,j) and (j,i) have a stress each
+    pairs  ///< (i,j) and (j,i) have one; where the states of their points differ, it starts from the mean
+};
+
 /// How bond stresses become forces. One object serves all points; it holds no state of the simulation.
 class ForceState {
 public:
@@ -71,20 +51,30 @@ public:
 
     const Influence& influence() const { return influence_; }
 
-    /// Reads records, families and bonds; writes bonds and the outcome members of the model. Velocities are those of
-    /// the middle of the step, positions those of its end.
-    /// @throws MaterialFailure naming the first point, in the order of points, whose material failed.
-    virtual void evaluate(Model& model, const Evaluation& evaluation) const = 0;
+    /// Advances the states on bonds and finds forces, for the positions and velocities at the ends of the bonds:
+    /// velocities are those of the middle of the step, positions those of its end.
+    /// @param bonds of the state; changed by StressUpdate::advance alone
+    /// @param result overwritten, but for its times, to which those of this evaluation are added
+    /// @throws MaterialFailure naming the first point, in the order of points, whose material failed
+    virtual void evaluate(const OperatorInput& input, const Evaluation& evaluation, BondStates& bonds,
+                          OperatorWorkspace& workspace, OperatorResult& result) const = 0;
 
-    /// Shares of a point's bonds in its mean state: non-negative, 0 for inactive bonds, sum 1 unless all are
-    /// inactive. `shares` has pack_width values a pack of the family. Records and activity must be current.
-    virtual void shares(const Model& model, std::size_t point, std::span<double> shares) const = 0;
+    /// The same with all parts of a model.
+    void evaluate(Model& model, const Evaluation& evaluation) const
+    {
+        evaluate({model.state, model.neighbourhood, model.ends}, evaluation, model.bonds, model.workspace,
+                 model.result);
+    }
+
+    /// Weights of a point's bonds in its mean state: non-negative, 0 for inactive bonds, sum 1 unless all are
+    /// inactive. `weights` has pack_width values a pack of the family. The ends of bonds and the result must be
+    /// current.
+    virtual void bond_weights(const Model& model, std::size_t point, std::span<double> weights) const = 0;
 
     /// Does it sum over sub-horizons?
     virtual bool uses_sub_horizons() const { return false; }
 
-    /// Do (i,j) and (j,i) carry one state? Then what their ends differ in is met half-way.
-    virtual bool shares_bonds() const { return false; }
+    virtual StressSite stress_site() const { return StressSite::bonds; }
 
 private:
     Influence influence_;

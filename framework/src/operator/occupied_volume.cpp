@@ -184,30 +184,30 @@ OccupiedVolume::OccupiedVolume(double spacing, double horizon)
 
 OccupiedVolume::Measure OccupiedVolume::of_point(const Model& model, std::size_t point) const
 {
-    const FamilyView family = model.families[point];
-    const NeighbourRecord& self = model.records[point];
+    const FamilyView family = model.neighbourhood.families[point];
+    const BondEnd& self = model.ends[point];
     auto& around = thread_buffers<Surroundings>();
     around.begin(horizon_, ball_squared_);
     for (std::size_t p = 0; p < family.packs; ++p) {
         const std::uint32_t* neighbours = family.neighbours + p * pack_width;
         const std::array<Pack, 8> other =
-            load_transposed<8>([&](std::size_t lane) { return model.records[neighbours[lane]].position; });
+            load_transposed<8>([&](std::size_t lane) { return model.ends[neighbours[lane]].position; });
         Pack volume = 0.0;
         for (std::size_t lane = 0; lane < family.bonds_in(p); ++lane)
-            volume[lane] = model.points.initial_volume[model.families.parent(neighbours[lane])];
+            volume[lane] = model.neighbourhood.initial_volume[neighbours[lane]];
         around.add({other[0] - self.position[0], other[1] - self.position[1], other[2] - self.position[2]}, volume);
     }
     const double support = around.support() / whole_;
-    const double filled = weight_at_centre_ * (model.points.initial_volume[point] + around.weights());
+    const double filled = weight_at_centre_ * (model.state.points.initial_volume[point] + around.weights());
     return {support * lattice_ / filled, support};
 }
 
 void follow_occupied_volume(Model& model, const Families& before)
 {
-    Points& points = model.points;
-    const OccupiedVolume occupied(model.spacing, model.horizon);
+    Points& points = model.state.points;
+    const OccupiedVolume occupied(model.state.spacing, model.state.horizon);
     const auto follow = [&](std::size_t i) {
-        const double part = std::min(1.0, rate * exchanged(before, model.families, i));
+        const double part = std::min(1.0, rate * exchanged(before, model.neighbourhood.families, i));
         if (part == 0.0)
             return;
         const OccupiedVolume::Measure measure = occupied.of_point(model, i);
@@ -224,7 +224,7 @@ void follow_occupied_volume(Model& model, const Families& before)
     for (std::size_t i = 0; i < model.size(); ++i)
         failure.guard(i, [&] { follow(i); });
     failure.rethrow();
-    model.update_records();
+    model.gather_ends();
 }
 
 } // namespace periporo

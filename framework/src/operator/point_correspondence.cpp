@@ -1,6 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// One velocity gradient for all bonds of a point.
 #include "operator/point_correspondence.hpp"
 
 #include "operator/block_loop.hpp"
@@ -20,15 +21,15 @@ struct PointKinematics {
     bool sound = false;
 };
 
-PointKinematics point_kinematics(const Model& model, std::size_t point, const FamilyView& family,
+PointKinematics point_kinematics(const BondEnds& ends, std::size_t point, const FamilyView& family,
                                  const Influence& influence)
 {
-    const NeighbourRecord& self = model.records[point];
+    const BondEnd& self = ends[point];
     Eigen::Matrix3d shape = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     double weights = 0.0;
     for (std::size_t b = 0; b < family.count; ++b) {
-        const NeighbourRecord& other = model.records[family.neighbours[b]];
+        const BondEnd& other = ends[family.neighbours[b]];
         const Vector3 zeta = other.x() - self.x();
         const double weight = influence(zeta.squaredNorm()) * other.volume;
         shape += weight * zeta * zeta.transpose();
@@ -67,15 +68,15 @@ Eigen::Matrix3d matrix(const SymmetricTensor<Pack>& t)
 }
 
 /// The forces of T_ij = omega M zeta.
-void add_forces(const Model& model, std::size_t point, const FamilyView& family, const Influence& influence,
+void add_forces(const BondEnds& ends, std::size_t point, const FamilyView& family, const Influence& influence,
                 const Eigen::Matrix3d& moment, BondForces& forces)
 {
-    const NeighbourRecord& self = model.records[point];
+    const BondEnd& self = ends[point];
     std::array<Pack, 3> own{Pack(0.0), Pack(0.0), Pack(0.0)};
     for (std::size_t p = 0; p < family.packs; ++p) {
         std::array<Pack, 3> force{Pack(0.0), Pack(0.0), Pack(0.0)};
         for (std::size_t lane = 0; lane < family.bonds_in(p); ++lane) {
-            const NeighbourRecord& other = model.records[family.neighbours[p * pack_width + lane]];
+            const BondEnd& other = ends[family.neighbours[p * pack_width + lane]];
             const Vector3 zeta = other.x() - self.x();
             const Vector3 f = self.volume * other.volume * influence(zeta.squaredNorm()) * (moment * zeta);
             for (std::size_t c = 0; c < 3; ++c)
@@ -83,36 +84,39 @@ void add_forces(const Model& model, std::size_t point, const FamilyView& family,
         }
         for (std::size_t c = 0; c < 3; ++c)
             own[c] += force[c];
-        forces.take_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
+        forces.subtract_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
     }
-    forces.give_to(point, own);
+    forces.add_to(point, own);
 }
 
 } // namespace
 
-void PointCorrespondenceForceState::evaluate(Model& model, const Evaluation& evaluation) const
+void PointCorrespondenceForceState::evaluate(const OperatorInput& input, const Evaluation& evaluation,
+                                             BondStates& bonds, OperatorWorkspace& workspace,
+                                             OperatorResult& result) const
 {
+    const BlockAccumulators& blocks = input.neighbourhood.blocks;
     FirstFailure failure;
-    BondForces::prepare(model);
-    for_every_block(model, [&](std::size_t block, OperatorSamples& samples) {
-        auto& workspace = thread_buffers<StressWorkspace>();
-        BondForces forces(model, block);
-        for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
+    BondForces::prepare(blocks, workspace, result);
+    for_every_block(blocks, result.times, [&](std::size_t block, OperatorTimes& samples) {
+        auto& buffers = thread_buffers<StressWorkspace>();
+        BondForces forces(blocks, block, workspace);
+        for (std::size_t i = blocks.first_point(block); i < blocks.end_point(block); ++i) {
             SampledTimes times(samples, i);
-            const FamilyView family = model.families[i];
-            const PointKinematics point = point_kinematics(model, i, family, influence());
-            BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state(i), evaluation, workspace);
+            const FamilyView family = input.family(i);
+            const PointKinematics point = point_kinematics(input.ends, i, family, influence());
+            BondStress stress(input, i, family.neighbours, family.packs, bonds.state(i), evaluation, buffers);
             for (std::size_t p = 0; p < family.packs; ++p) {
                 // all bonds of a sound point are active
                 const std::uint8_t lanes = point.sound ? family.lanes(p) : std::uint8_t{0};
                 const Tensor<Pack> gradient = on_all_lanes(point.gradient, lane_mask(lanes));
                 stress.begin(p, at_mid_step(gradient, 2.0 * evaluation.gradient_lag()), lanes);
-                model.bonds.active[family.first_pack + p] = lanes;
+                result.active[family.first_pack + p] = lanes;
             }
-            times.end_of(&OperatorSamples::kinematics);
+            times.end_of(&OperatorTimes::kinematics);
             if (const MaterialStatus status = stress.update(); !status.converged)
                 failure.report(i, status);
-            times.end_of(&OperatorSamples::material);
+            times.end_of(&OperatorTimes::material);
 
             SymmetricTensor<Pack> sum;
             Pack work = 0.0;
@@ -124,25 +128,25 @@ void PointCorrespondenceForceState::evaluate(Model& model, const Evaluation& eva
                 dilation += bond.dilation;
             }
             const double share = point.sound ? 1.0 / static_cast<double>(family.count) : 0.0;
-            model.stress_work[i] = model.points.volume[i] * share * reduce(work);
-            model.volume_rate[i] = share * reduce(dilation);
-            model.inactive_bonds[i] = point.sound ? 0 : static_cast<std::uint32_t>(family.count);
-            model.free_grain[i] = point.sound ? 0 : 1;
-            add_forces(model, i, family, influence(), share * matrix(sum) * point.inverse_shape, forces);
-            times.end_of(&OperatorSamples::force);
+            result.stress_work[i] = input.state.points.volume[i] * share * reduce(work);
+            result.volume_rate[i] = share * reduce(dilation);
+            result.inactive_bonds[i] = point.sound ? 0 : static_cast<std::uint32_t>(family.count);
+            result.detached[i] = point.sound ? 0 : 1;
+            add_forces(input.ends, i, family, influence(), share * matrix(sum) * point.inverse_shape, forces);
+            times.end_of(&OperatorTimes::force);
         }
     });
-    failure.raise(model);
-    BondForces::hand_out(model);
+    failure.raise(input.state, input.neighbourhood.families);
+    BondForces::distribute(input.neighbourhood, workspace, result);
 }
 
-void PointCorrespondenceForceState::shares(const Model& model, std::size_t point, std::span<double> shares) const
+void PointCorrespondenceForceState::bond_weights(const Model& model, std::size_t point, std::span<double> weights) const
 {
-    const FamilyView family = model.families[point];
-    const double share =
-        model.free_grain[point] != 0 || family.count == 0 ? 0.0 : 1.0 / static_cast<double>(family.count);
-    for (std::size_t b = 0; b < shares.size(); ++b)
-        shares[b] = b < family.count ? share : 0.0;
+    const FamilyView family = model.neighbourhood.families[point];
+    const double weight =
+        model.result.detached[point] != 0 || family.count == 0 ? 0.0 : 1.0 / static_cast<double>(family.count);
+    for (std::size_t b = 0; b < weights.size(); ++b)
+        weights[b] = b < family.count ? weight : 0.0;
 }
 
 } // namespace periporo

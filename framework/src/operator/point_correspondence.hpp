@@ -18,8 +18,10 @@ class PointCorrespondenceForceState : public ForceState {
 public:
     using ForceState::ForceState;
 
-    void evaluate(Model& model, const Evaluation& evaluation) const override;
-    void shares(const Model& model, std::size_t point, std::span<double> shares) const override;
+    using ForceState::evaluate;
+    void evaluate(const OperatorInput& input, const Evaluation& evaluation, BondStates& bonds,
+                  OperatorWorkspace& workspace, OperatorResult& result) const override;
+    void bond_weights(const Model& model, std::size_t point, std::span<double> weights) const override;
 };
 
 } // namespace periporo

@@ -1,34 +1,35 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What points lend to the bonds of the bond projection: first of all their velocity gradients.
+// Velocity gradients of points, as a field that both ends of a bond read.
 #pragma once
 
-#include "model/model.hpp"
+#include "model/operator_result.hpp"
+#include "operator/evaluation.hpp"
 #include "operator/influence.hpp"
 
 namespace periporo {
 
-/// Sixteen doubles of every point and image, in memory of the model. The first nine are a tensor row by row, which
-/// images hold in their own frame, so that bonds need not ask.
-class LentRows {
+/// Sixteen doubles at every end of bonds. The first nine are a tensor row by row, which images hold in their own frame,
+/// so that a bond reads it as it is.
+class EndField {
 public:
     static constexpr std::size_t values = 16;
 
-    /// Doubles that the rows of a model take.
-    static std::size_t room(const Model& model) { return values * (model.size() + model.families.images().size()); }
+    /// Doubles that a field takes.
+    static std::size_t room(const Neighbourhood& neighbourhood) { return values * neighbourhood.ends(); }
 
-    /// @param rows of room(model) doubles
-    LentRows(const Model& model, double* rows) : model_(model), rows_(rows) {}
+    /// @param rows of room(neighbourhood) doubles
+    EndField(const Neighbourhood& neighbourhood, double* rows) : neighbourhood_(neighbourhood), rows_(rows) {}
 
-    double* operator[](std::size_t point) { return rows_ + point * values; }
-    const double* operator[](std::size_t point) const { return rows_ + point * values; }
+    double* operator[](std::size_t end) { return rows_ + end * values; }
+    const double* operator[](std::size_t end) const { return rows_ + end * values; }
 
-    /// Rows of images from those of their parents.
-    void show_images();
+    /// Sets the values of images from those of their points.
+    void fill_images();
 
 private:
-    const Model& model_;
+    const Neighbourhood& neighbourhood_;
     double* rows_;
 };
 
@@ -40,10 +41,10 @@ public:
     /// sound).
     enum Place : std::size_t { gradient_at = 0, reciprocal_weight_at = 9, inverse_shape_at = 10 };
 
-    /// @param rows of LentRows::room(model) doubles
-    PointGradients(Model& model, const Influence& influence, double* rows);
+    /// @param rows of EndField::room() doubles
+    PointGradients(const OperatorInput& input, const Influence& influence, double* rows, OperatorResult& result);
 
-    /// Finds everything anew; writes the activity of bonds and points to the model.
+    /// Finds everything anew; writes the activity of bonds and points to the result.
     void find();
 
     const double* operator[](std::size_t point) const { return rows_[point]; }
@@ -53,10 +54,11 @@ private:
     bool find_gradient(std::size_t point);
     double find_activity(std::size_t point);
 
-    Model& model_;
+    const OperatorInput& input_;
+    OperatorResult& result_;
     const Influence& influence_;
     double least_squared_; ///< of the length of an active bond [m2]
-    LentRows rows_;
+    EndField rows_;
 };
 
 /// Nine doubles as a tensor row by row, and back.

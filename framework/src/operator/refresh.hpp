@@ -13,14 +13,14 @@ namespace periporo {
 /// initial state variables.
 void find_first_families(Model& model, const ForceState& force_state);
 
-/// The same with families that a checkpoint kept, for the positions of the last refresh. Records have these positions
-/// until Model::update_records().
+/// The same with families that a checkpoint kept, for the positions of the last refresh. The ends of bonds have these
+/// positions until Model::gather_ends().
 /// @throws std::runtime_error when they do not fit the points
 void resume_families(Model& model, const ForceState& force_state, const Families::Kept& kept);
 
 /// Families from the current positions, and those until now (FamilyRule). A bond that was active and is still there
 /// keeps its state; any other bond (i,j) takes the mean of the point states of i and j, a point state being the
-/// share-weighted mean over the active bonds of the point. A point without active bonds remembers its state variables
+/// weighted mean over the active bonds of the point. A point without active bonds remembers its state variables
 /// and has zero stress.
 ///
 /// Variables of the point (StateVariable::of_point) are evened out: the point's value has moved by the mean change of
@@ -32,8 +32,8 @@ void refresh_families(Model& model, const ForceState& force_state, std::span<con
 /// Sets the variables of the points to the mean of their bonds and evens these out: after they were set bond by bond.
 void collect_point_variables(Model& model, const ForceState& force_state);
 
-/// States of all points as their bonds have them now, laid out like Model::point_state, which `states` must start from:
-/// a free grain keeps its state variables there.
+/// States of all points as their bonds have them now, laid out like PointStates::values, which `states` must start
+/// from: a detached point keeps its state variables there.
 void mean_point_states(const Model& model, const ForceState& force_state, std::vector<double>& states);
 
 /// The largest displacement of a point since the last refresh relative to the mean displacement of all [m]. Bonds have

@@ -1,6 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// Sums over sub-horizons, gradients, moments of stress and forces of one point after the other.
 #include "operator/sub_horizon.hpp"
 
 #include "operator/block_loop.hpp"
@@ -55,7 +56,7 @@ struct Workspace {
     }
 };
 
-struct ShareBuffers {
+struct WeightBuffers {
     AlignedVector<double> volume, sums;
 };
 
@@ -71,17 +72,17 @@ struct FamilySums {
 };
 
 /// Relative positions, influence and the features whose sums over sub-horizons are K_b, the velocity moment and V.
-FamilySums gather(const Model& model, std::size_t point, const FamilyView& family, const Influence& influence,
+FamilySums gather(const BondEnds& ends, std::size_t point, const FamilyView& family, const Influence& influence,
                   Workspace& w)
 {
-    const NeighbourRecord& self = model.records[point];
+    const BondEnd& self = ends[point];
     Pack volumes = 0.0;
     Pack weights = 0.0;
     for (std::size_t p = 0; p < family.packs; ++p) {
         const std::size_t at = p * pack_width;
         const std::uint32_t* neighbours = family.neighbours + at;
         const std::array<Pack, 8> other =
-            load_transposed<8>([&](std::size_t lane) { return model.records[neighbours[lane]].position; });
+            load_transposed<8>([&](std::size_t lane) { return ends[neighbours[lane]].position; });
         const Pack x = other[0] - self.position[0];
         const Pack y = other[1] - self.position[1];
         const Pack z = other[2] - self.position[2];
@@ -115,11 +116,11 @@ FamilySums gather(const Model& model, std::size_t point, const FamilyView& famil
 /// @param thickness least thickness squared [m2]
 /// @param lag see Evaluation::gradient_lag [s]
 /// @param least_squared l^2 [m2], none for gradients that are means over the sub-horizon
-double kinematics(const Model& model, std::size_t point, const FamilyView& family, const FamilySums& family_sums,
+double kinematics(const BondEnds& ends, std::size_t point, const FamilyView& family, const FamilySums& family_sums,
                   bool weighed, double thickness, double lag, std::optional<double> least_squared, Workspace& w,
                   BondStress& stress)
 {
-    const double self_volume = model.records[point].volume;
+    const double self_volume = ends[point].volume;
     const Pack zero = 0.0;
     const double least = thickness * family_sums.mean_influence;
     Pack total = 0.0;
@@ -159,11 +160,12 @@ double kinematics(const Model& model, std::size_t point, const FamilyView& famil
 }
 
 /// f sigma_b K_b^-1 of every bond, as the moments of the workspace, where f is `moment_factor` times the weight; and
-/// what the model keeps of the point. Of what goes along the bond itself the moments keep nothing.
+/// the result of the point. The part along the bond itself is not in the moments.
 /// @param share_factor the shares over the weights
 /// @param least_squared as in kinematics()
-void stress_moments(Model& model, std::size_t point, const FamilyView& family, const BondStress& stress,
-                    double share_factor, double moment_factor, std::optional<double> least_squared, Workspace& w)
+void stress_moments(const State& state, std::size_t point, const FamilyView& family, const BondStress& stress,
+                    double share_factor, double moment_factor, std::optional<double> least_squared, Workspace& w,
+                    OperatorResult& result)
 {
     Pack work = 0.0;
     Pack dilation = 0.0;
@@ -176,7 +178,7 @@ void stress_moments(Model& model, std::size_t point, const FamilyView& family, c
         dilation += weight * bond.dilation;
         carrying += weight;
         active += static_cast<std::uint32_t>(std::popcount(stress.active(p)));
-        model.bonds.active[family.first_pack + p] = stress.active(p);
+        result.active[family.first_pack + p] = stress.active(p);
         Tensor<Pack> share = full(bond.stress * (weight * moment_factor));
         if (least_squared) {
             const BondVector zeta = load_vector(&w.zeta[p * 3 * pack_width]);
@@ -189,17 +191,17 @@ void stress_moments(Model& model, std::size_t point, const FamilyView& family, c
                                         w.moments.row(p * pack_width));
         store_pack(m.zz, w.moments.column.data() + p * pack_width);
     }
-    model.stress_work[point] = model.points.volume[point] * reduce(work);
-    model.volume_rate[point] = active == 0 ? 0.0 : reduce(dilation) / reduce(carrying);
-    model.inactive_bonds[point] = static_cast<std::uint32_t>(family.count) - active;
-    model.free_grain[point] = active == 0 ? 1 : 0;
+    result.stress_work[point] = state.points.volume[point] * reduce(work);
+    result.volume_rate[point] = active == 0 ? 0.0 : reduce(dilation) / reduce(carrying);
+    result.inactive_bonds[point] = static_cast<std::uint32_t>(family.count) - active;
+    result.detached[point] = active == 0 ? 1 : 0;
 }
 
 /// Forces of the force states V_j T = omega V_j M zeta + what goes along the bond itself.
-void add_forces(const Model& model, std::size_t point, const FamilyView& family, bool along_bonds,
+void add_forces(const BondEnds& ends, std::size_t point, const FamilyView& family, bool along_bonds,
                 const BondRows<moment_values, true>& moments, const Workspace& w, BondForces& forces)
 {
-    const double self_volume = model.records[point].volume;
+    const double self_volume = ends[point].volume;
     BondVector sum{Pack(0.0), Pack(0.0), Pack(0.0)};
     for (std::size_t p = 0; p < family.packs; ++p) {
         const std::size_t at = p * pack_width;
@@ -215,78 +217,81 @@ void add_forces(const Model& model, std::size_t point, const FamilyView& family,
         }
         for (std::size_t c = 0; c < 3; ++c)
             sum[c] += force[c];
-        forces.take_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
+        forces.subtract_from_neighbours(family.first_pack + p, family.bonds_in(p), force);
     }
-    forces.give_to(point, sum);
+    forces.add_to(point, sum);
 }
 
 } // namespace
 
-void SubHorizonForceState::evaluate(Model& model, const Evaluation& evaluation) const
+void SubHorizonForceState::evaluate(const OperatorInput& input, const Evaluation& evaluation, BondStates& bonds,
+                                    OperatorWorkspace& workspace, OperatorResult& result) const
 {
     const bool conjugate = kind_ != Kind::volume_weighted;
     std::optional<double> least_squared;
     if (kind_ == Kind::energy_conjugate)
-        least_squared = std::pow(shortest_bond * model.spacing, 2);
+        least_squared = std::pow(shortest_bond * input.state.spacing, 2);
     const double thickness = least_relative_thickness * influence().second_moment();
+    const BlockAccumulators& blocks = input.neighbourhood.blocks;
     FirstFailure failure;
-    BondForces::prepare(model);
-    for_every_block(model, [&](std::size_t block, OperatorSamples& samples) {
+    BondForces::prepare(blocks, workspace, result);
+    for_every_block(blocks, result.times, [&](std::size_t block, OperatorTimes& samples) {
         auto& w = thread_buffers<Workspace>();
-        BondForces forces(model, block);
-        for (std::size_t i = model.halos.first_point(block); i < model.halos.end_point(block); ++i) {
+        BondForces forces(blocks, block, workspace);
+        for (std::size_t i = blocks.first_point(block); i < blocks.end_point(block); ++i) {
             SampledTimes times(samples, i);
-            const FamilyView family = model.families[i];
+            const FamilyView family = input.family(i);
             w.reserve(family.packs);
-            const FamilySums family_sums = gather(model, i, family, influence(), w);
-            sum_sub_horizons(model.sub_horizons[i], w.features, w.sums);
-            BondStress stress(model, i, family.neighbours, family.packs, model.bonds.state(i), evaluation, w.stress);
-            const double total = kinematics(model, i, family, family_sums, conjugate, thickness,
+            const FamilySums family_sums = gather(input.ends, i, family, influence(), w);
+            sum_sub_horizons(input.neighbourhood.sub_horizons[i], w.features, w.sums);
+            BondStress stress(input, i, family.neighbours, family.packs, bonds.state(i), evaluation, w.stress);
+            const double total = kinematics(input.ends, i, family, family_sums, conjugate, thickness,
                                             evaluation.gradient_lag(), least_squared, w, stress);
             const double reciprocal_total = total > 0.0 ? 1.0 / total : 0.0;
-            times.end_of(&OperatorSamples::kinematics);
+            times.end_of(&OperatorTimes::kinematics);
             if (const MaterialStatus status = stress.update(); !status.converged)
                 failure.report(i, status);
-            times.end_of(&OperatorSamples::material);
+            times.end_of(&OperatorTimes::material);
 
             const double moment_factor = conjugate ? reciprocal_total : 1.0 / family_sums.volume;
-            stress_moments(model, i, family, stress, reciprocal_total, moment_factor, least_squared, w);
+            stress_moments(input.state, i, family, stress, reciprocal_total, moment_factor, least_squared, w, result);
             if (conjugate)
-                sum_sub_horizons(model.sub_horizons[i], w.moments, w.moment_sums);
-            add_forces(model, i, family, least_squared.has_value(), conjugate ? w.moment_sums : w.moments, w, forces);
-            times.end_of(&OperatorSamples::force);
+                sum_sub_horizons(input.neighbourhood.sub_horizons[i], w.moments, w.moment_sums);
+            add_forces(input.ends, i, family, least_squared.has_value(), conjugate ? w.moment_sums : w.moments, w,
+                       forces);
+            times.end_of(&OperatorTimes::force);
         }
     });
-    failure.raise(model);
-    BondForces::hand_out(model);
+    failure.raise(input.state, input.neighbourhood.families);
+    BondForces::distribute(input.neighbourhood, workspace, result);
 }
 
-void SubHorizonForceState::shares(const Model& model, std::size_t point, std::span<double> shares) const
+void SubHorizonForceState::bond_weights(const Model& model, std::size_t point, std::span<double> weights) const
 {
-    const FamilyView family = model.families[point];
-    const NeighbourRecord& self = model.records[point];
+    const FamilyView family = model.neighbourhood.families[point];
+    const BondEnd& self = model.ends[point];
     const bool weighed = kind_ != Kind::volume_weighted;
-    auto& [volume, sums] = thread_buffers<ShareBuffers>();
+    auto& [volume, sums] = thread_buffers<WeightBuffers>();
     volume.resize(family.packs * pack_width);
     for (std::size_t p = 0; p < family.packs; ++p) {
         const std::uint32_t* neighbours = family.neighbours + p * pack_width;
         const std::array<Pack, 8> other =
-            load_transposed<8>([&](std::size_t lane) { return model.records[neighbours[lane]].position; });
+            load_transposed<8>([&](std::size_t lane) { return model.ends[neighbours[lane]].position; });
         store_pack(other[3], &volume[p * pack_width]);
         BondVector zeta;
         for (std::size_t c = 0; c < 3; ++c)
             zeta[c] = other[c] - self.position[c];
         const Pack omega = weighed ? influence()(dot(zeta, zeta)) : Pack(1.0);
-        const Pack active = select(lane_mask(model.bonds.active[family.first_pack + p]), omega, Pack(0.0));
-        active.copy_to(&shares[p * pack_width], std::experimental::element_aligned);
+        const Pack active = select(lane_mask(model.result.active[family.first_pack + p]), omega, Pack(0.0));
+        active.copy_to(&weights[p * pack_width], std::experimental::element_aligned);
     }
-    sum_sub_horizons(model.sub_horizons[point], volume, sums);
+    sum_sub_horizons(model.neighbourhood.sub_horizons[point], volume, sums);
     double total = 0.0;
     for (std::size_t b = 0; b < family.count; ++b)
-        total += shares[b] *= sums[b] + self.volume;
+        total += weights[b] *= sums[b] + self.volume;
     if (total > 0.0)
-        for (double& share : shares)
-            share /= total;
+        for (double& weight : weights)
+            weight /= total;
 }
 
 } // namespace periporo

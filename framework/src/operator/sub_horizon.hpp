@@ -29,8 +29,10 @@ public:
 
     SubHorizonForceState(Influence influence, Kind kind) : ForceState(influence), kind_(kind) {}
 
-    void evaluate(Model& model, const Evaluation& evaluation) const override;
-    void shares(const Model& model, std::size_t point, std::span<double> shares) const override;
+    using ForceState::evaluate;
+    void evaluate(const OperatorInput& input, const Evaluation& evaluation, BondStates& bonds,
+                  OperatorWorkspace& workspace, OperatorResult& result) const override;
+    void bond_weights(const Model& model, std::size_t point, std::span<double> weights) const override;
     bool uses_sub_horizons() const override { return true; }
 
 private:

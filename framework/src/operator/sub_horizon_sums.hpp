@@ -4,7 +4,7 @@
 // Sums over the sub-horizons of one point's bonds: the innermost loop of the operator.
 #pragma once
 
-#include "families/sub_horizons.hpp"
+#include "neighbourhood/sub_horizons.hpp"
 #include "operator/transpose.hpp"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 //
 #include "scheduler/build_model.hpp"
 
+#include "assembly/body_fill.hpp"
 #include "case/refusal.hpp"
 #include "contact/assignment.hpp"
-#include "model/body_fill.hpp"
 #include "operator/bond_update.hpp"
 #include "operator/refresh.hpp"
 #include "plugins/fit_contact.hpp"
@@ -84,7 +84,7 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
     const BodyDescription& body = description.bodies[index];
     const PointCloud cloud = fill_with_points(built, description, body, geometries, progress);
     const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
-    Points& points = built.model.points;
+    Points& points = built.model.state.points;
     const MaterialDescription& material = material_of(description, body);
     Vector3 centre = Vector3::Zero();
     for (std::size_t p = 0; p < cloud.positions.size(); ++p)
@@ -113,8 +113,8 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         built.remarks.push_back(fmt::format("body '{}': {} of {} points lie behind symmetry planes and are represented "
                                             "by images",
                                             body.name, cut, cloud.positions.size()));
-    built.model.bodies.push_back({body.name, make_material(description, body, registry),
-                                  body.initial_stress.overconsolidation_ratio, material.porosity});
+    built.model.state.bodies.push_back({body.name, make_material(description, body, registry),
+                                        body.initial_stress.overconsolidation_ratio, material.porosity});
 }
 
 void add_obstacles(BuiltModel& built, const CaseDescription& description, Geometries& geometries)
@@ -129,7 +129,7 @@ void add_obstacles(BuiltModel& built, const CaseDescription& description, Geomet
                                 obstacle.geometry.name));
             for (const std::string& remark : geometry->remarks())
                 built.remarks.push_back(fmt::format("obstacle '{}': {}", obstacle.name, remark));
-            built.model.obstacles.push_back({obstacle.name, geometry});
+            built.model.state.obstacles.push_back({obstacle.name, geometry});
         } catch (const std::bad_alloc&) {
             throw;
         } catch (const std::exception& error) {
@@ -155,18 +155,18 @@ ContactAssignment assignment_of(const Model& model, const CaseDescription& descr
     const std::shared_ptr<Contact> law = registry.make_contact(contact.law.name, contact.law.parameters);
     ContactAssignment assignment{law, {}, {}, {}};
     for (const std::string& name : contact.between) {
-        if (const auto body = number_of(model.bodies, name))
+        if (const auto body = number_of(model.state.bodies, name))
             assignment.bodies.push_back(*body);
         else
-            assignment.obstacle = number_of(model.obstacles, name);
+            assignment.obstacle = number_of(model.state.obstacles, name);
     }
     if (!contact.surface.empty())
-        assignment.surface_body = number_of(model.bodies, contact.surface);
+        assignment.surface_body = number_of(model.state.bodies, contact.surface);
     if (!at_rigid_surface(assignment) && assignment.bodies.size() == 1)
         throw refusal(description, fmt::format("contact.{}.between", index),
                       fmt::format("law '{}' has no surface of its own, and 'between' names one body", contact.law.name),
                       "name a second body or an obstacle, or the body twice for its free grains");
-    fit_contact(*law, model.spacing, model.horizon, assignment.obstacle || assignment.surface_body);
+    fit_contact(*law, model.state.spacing, model.state.horizon, assignment.obstacle || assignment.surface_body);
     return assignment;
 }
 
@@ -203,19 +203,20 @@ void order_along_curve(Points& points, double spacing)
 void remark_on_water_tables(BuiltModel& built)
 {
     const Model& model = built.model;
-    const auto wet = std::ranges::max_element(model.bodies, {}, &Body::water_level);
+    const auto wet = std::ranges::max_element(model.state.bodies, {}, &Body::water_level);
     if (!wet->has_standing_water())
         return;
     const StandingWater standing(model);
-    std::vector<std::uint8_t> reaches(model.bodies.size(), 0);
+    std::vector<std::uint8_t> reaches(model.state.bodies.size(), 0);
     for (std::size_t i = 0; i < model.size(); ++i)
-        if (!model.body_of(i).has_standing_water() && model.points.position[i].dot(standing.up()) < wet->water_level)
-            reaches[model.points.body[i]] = 1;
+        if (!model.body_of(i).has_standing_water() &&
+            model.state.points.position[i].dot(standing.up()) < wet->water_level)
+            reaches[model.state.points.body[i]] = 1;
     for (std::size_t b = 0; b < reaches.size(); ++b)
         if (reaches[b] != 0)
             built.remarks.push_back(fmt::format("body '{}' reaches below the water table of body '{}', but no water "
                                                 "stands around it: each body names its own water_table",
-                                                model.bodies[b].name, wet->name));
+                                                model.state.bodies[b].name, wet->name));
 }
 
 } // namespace
@@ -232,15 +233,15 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
 {
     BuiltModel built;
     Model& model = built.model;
-    model.spacing = description.discretization.spacing;
-    model.horizon = description.discretization.horizon();
-    model.gravity = description.gravity;
+    model.state.spacing = description.discretization.spacing;
+    model.state.horizon = description.discretization.horizon();
+    model.state.gravity = description.gravity;
     Geometries geometries(description, registry);
     built.water = Water(description, registry);
     for (std::size_t b = 0; b < description.bodies.size(); ++b)
         add_body(built, description, b, registry, geometries, progress);
     add_obstacles(built, description, geometries);
-    order_along_curve(model.points, model.spacing);
+    order_along_curve(model.state.points, model.state.spacing);
     built.water.begin(model);
     remark_on_water_tables(built);
     model.allocate();
@@ -252,22 +253,22 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
         built.contacts.push_back(assignment_of(model, description, c, registry));
     for (const ContactAssignment& contact : built.contacts) {
         if (contact.surface_body)
-            model.bodies[*contact.surface_body].ground = true;
+            model.state.bodies[*contact.surface_body].ground = true;
         if (within_one_body(contact))
-            model.bodies[contact.bodies[0]].joining_distance = 0.0;
+            model.state.bodies[contact.bodies[0]].joining_distance = 0.0;
     }
     return built;
 }
 
 void set_obstacles(Model& model, const CaseDescription& description, const StageDescription& stage)
 {
-    for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    for (std::size_t o = 0; o < model.state.obstacles.size(); ++o) {
         const ObstacleDescription& obstacle = description.obstacles[o];
         const bool moves = obstacle.moves_in
                                ? std::ranges::find(*obstacle.moves_in, stage.name) != obstacle.moves_in->end()
                                : stage.type == "dynamic";
-        model.obstacles[o].velocity = moves ? obstacle.velocity : Vector3(Vector3::Zero());
-        model.obstacles[o].present = applies_in(obstacle.stages, stage);
+        model.state.obstacles[o].velocity = moves ? obstacle.velocity : Vector3(Vector3::Zero());
+        model.state.obstacles[o].present = applies_in(obstacle.stages, stage);
     }
 }
 
@@ -292,7 +293,8 @@ void initialize_materials(Model& model, const ForceState& force_state)
     for (std::size_t i = 0; i < model.size(); ++i) {
         const HeldBonds held = model.held(i);
         workspace.reserve(held.packs);
-        gather_water(model, i, held.neighbours, held.packs, workspace);
+        if (model.ends.wet())
+            gather_water(model.ends, i, held.neighbours, held.packs, workspace);
         MaterialBatch batch;
         batch.packs = held.packs;
         batch.bonds = held.state;
@@ -305,25 +307,25 @@ void initialize_materials(Model& model, const ForceState& force_state)
 
 void set_initial_stress(Model& model, const ForceState& force_state, const CaseDescription& description)
 {
-    const double g = model.gravity.norm();
-    const Vector3 up = g > 0.0 ? Vector3(-model.gravity / g) : Vector3::UnitZ();
+    const double g = model.state.gravity.norm();
+    const Vector3 up = g > 0.0 ? Vector3(-model.state.gravity / g) : Vector3::UnitZ();
     std::vector<Overburden> overburden;
-    for (std::uint32_t body = 0; body < model.bodies.size(); ++body)
+    for (std::uint32_t body = 0; body < model.state.bodies.size(); ++body)
         overburden.emplace_back(model, body);
-    const Points& points = model.points;
+    const Points& points = model.state.points;
+    const bool wet = model.ends.wet();
     for (std::size_t i = 0; i < model.size(); ++i) {
-        const InitialStressDescription& initial = description.bodies[model.points.body[i]].initial_stress;
+        const InitialStressDescription& initial = description.bodies[model.state.points.body[i]].initial_stress;
         if (initial.type != "geostatic")
             continue;
         const HeldBonds held = model.held(i);
         const Overburden& above = overburden[points.body[i]];
         for (std::size_t h = 0; h < held.count; ++h) {
-            const NeighbourRecord& other = model.records[held.neighbours[h]];
-            const Vector3 middle = 0.5 * (model.points.position[i] + other.x());
+            const BondEnd& other = model.ends[held.neighbours[h]];
+            const Vector3 middle = 0.5 * (model.state.points.position[i] + other.x());
             const double depth = std::max(0.0, above.top() - middle.dot(up));
-            const std::size_t j = model.families.parent(held.neighbours[h]);
-            const double water = pore_stress(0.5 * (points.suction(i) + points.suction(j)),
-                                             0.5 * (points.saturation[i] + points.saturation[j]));
+            const EndWater between = wet ? model.ends.water_between(i, held.neighbours[h]) : EndWater{};
+            const double water = pore_stress(between.suction, between.saturation);
             const Overburden::Line load = above.around(depth, i);
             const double vertical = -load.unit_weight * depth - (load.offset + water);
             const double lateral = initial.lateral_coefficient * vertical;

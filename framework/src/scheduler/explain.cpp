@@ -93,13 +93,13 @@ std::string body_text(const BodyDescription& body, const Model& model, std::uint
     double count = 0.0, mass = 0.0, volume = 0.0, below = 0.0;
     Extremes suction, saturation;
     for (std::size_t i = 0; i < model.size(); ++i)
-        if (model.points.body[i] == b) {
+        if (model.state.points.body[i] == b) {
             count += 1.0;
-            mass += model.points.mass[i];
-            volume += model.points.volume[i];
-            below += model.points.volume[i] * standing.share_below(standing.height_of(i));
-            suction.add(model.points.suction(i));
-            saturation.add(model.points.saturation[i]);
+            mass += model.state.points.mass[i];
+            volume += model.state.points.volume[i];
+            below += model.state.points.volume[i] * standing.share_below(standing.height_of(i));
+            suction.add(model.state.points.suction(i));
+            saturation.add(model.state.points.saturation[i]);
         }
     const std::string points = estimate ? fmt::format("about {:.2g}", *estimate) : fmt::format("{:.0f}", count);
     std::string text = fmt::format(
@@ -107,7 +107,7 @@ std::string body_text(const BodyDescription& body, const Model& model, std::uint
         mass,
         body.water.type == "dry" ? "dry"
                                  : fmt::format("suction {} Pa at saturation {}", suction.text(), saturation.text()));
-    if (model.bodies[b].has_standing_water())
+    if (model.state.bodies[b].has_standing_water())
         text += fmt::format("    {:.1f} per cent of its volume below the water table, saturated and buoyant\n",
                             100.0 * below / volume);
     return text;
@@ -140,10 +140,11 @@ std::string model_text(const CaseDescription& description, const Sample& sample,
     if (sample.coarser == 1.0) {
         for (const std::string& remark : sample.simulation->remarks())
             text += fmt::format("  {}\n", remark);
-        text += fmt::format("  spacing {:.4g} m, horizon {:.4g} m, {} bonds ({:.1f} a point), {} images\n",
-                            model.spacing, model.horizon, model.families.bonds(),
-                            static_cast<double>(model.families.bonds()) / static_cast<double>(model.size()),
-                            model.families.images().size());
+        text +=
+            fmt::format("  spacing {:.4g} m, horizon {:.4g} m, {} bonds ({:.1f} a point), {} images\n",
+                        model.state.spacing, model.state.horizon, model.neighbourhood.families.bonds(),
+                        static_cast<double>(model.neighbourhood.families.bonds()) / static_cast<double>(model.size()),
+                        model.neighbourhood.families.images().size());
     } else {
         text += fmt::format("  spacing {:.4g} m, horizon {:.4g} m\n", description.discretization.spacing,
                             description.discretization.horizon());
@@ -212,7 +213,7 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
                               time_range_text(seconds, slower_in_flow * seconds), omp_get_max_threads(),
                               sample->coarser == 1.0
                                   ? "on its first steps"
-                                  : fmt::format("at a spacing of {:.3g} m", sample->simulation->model().spacing));
+                                  : fmt::format("at a spacing of {:.3g} m", sample->simulation->model().state.spacing));
 }
 
 } // namespace periporo

@@ -21,10 +21,10 @@ class WeightBearing {
 public:
     WeightBearing(const BuiltModel& built, const CaseDescription& description, const StageDescription& stage)
         : built_(built), description_(description), down_(description.gravity.normalized()),
-          held_(built.model.bodies.size(), false)
+          held_(built.model.state.bodies.size(), false)
     {
         for (std::size_t b = 0; b < held_.size(); ++b)
-            held_[b] = built.model.bodies[b].has_standing_water(); // buoyancy
+            held_[b] = built.model.state.bodies[b].has_standing_water(); // buoyancy
         find_planes(stage);
         find_held_regions(stage);
         for (const ContactAssignment& contact : built.contacts)
@@ -62,7 +62,7 @@ private:
             if (!bears_weight || !applies_in(region.stages, stage))
                 continue;
             for (const std::uint32_t i : built_.held_regions[r])
-                held_[built_.model.points.body[i]] = true;
+                held_[built_.model.state.points.body[i]] = true;
         }
     }
 
@@ -78,13 +78,14 @@ private:
         const RigidContactSurface surface(model, contact);
         const std::size_t stride = 1 + model.size() / most_looked_at;
         for (std::size_t i = 0; i < model.size(); ++i) {
-            if (model.points.body[i] != body || i % stride != 0)
+            if (model.state.points.body[i] != body || i % stride != 0)
                 continue;
             Vector3 normal;
-            const double distance = surface.distance(model.points.position[i], normal);
-            const double fall = std::max(std::abs(distance), model.spacing);
+            const double distance = surface.distance(model.state.points.position[i], normal);
+            const double fall = std::max(std::abs(distance), model.state.spacing);
             for (const double part : {0.5, 1.0, 2.0, 4.0})
-                if (surface.distance(model.points.position[i] + part * fall * down_, normal) < distance - 1e-3 * fall)
+                if (surface.distance(model.state.points.position[i] + part * fall * down_, normal) <
+                    distance - 1e-3 * fall)
                     return true;
         }
         return false;
@@ -129,15 +130,15 @@ void check_gravity(const BuiltModel& built, const CaseDescription& description, 
 {
     if (description.gravity.isZero())
         return;
-    std::vector<bool> told(built.model.bodies.size(), false);
+    std::vector<bool> told(built.model.state.bodies.size(), false);
     for (std::size_t s = 0; s < description.stages.size(); ++s) {
         const StageDescription& stage = description.stages[s];
         const WeightBearing bearing(built, description, stage);
-        for (std::size_t b = 0; b < built.model.bodies.size(); ++b) {
+        for (std::size_t b = 0; b < built.model.state.bodies.size(); ++b) {
             if (bearing.holds(b) || told[b])
                 continue;
             const std::string what = fmt::format("nothing holds body '{}' against gravity in stage '{}'",
-                                                 built.model.bodies[b].name, stage.name);
+                                                 built.model.state.bodies[b].name, stage.name);
             const std::string way_out = "give a contact with a surface that it falls on, hold some of its points, or "
                                         "turn 'gravity'";
             if (stage.type == "quasi_static")

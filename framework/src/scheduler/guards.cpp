@@ -18,29 +18,30 @@ constexpr double generous = 10.0;
 double least_turnover(const Model& model)
 {
     double mass = 0.0;
-    for (const double m : model.points.mass)
+    for (const double m : model.state.points.mass)
         mass += m;
-    return beginning * mass * model.gravity.norm() * model.spacing;
+    return beginning * mass * model.state.gravity.norm() * model.state.spacing;
 }
 
 std::size_t fastest_point(const Model& model)
 {
-    const std::vector<Vector3>& velocity = model.points.velocity;
+    const std::vector<Vector3>& velocity = model.state.points.velocity;
     return static_cast<std::size_t>(
         std::ranges::max_element(velocity, {}, [](const Vector3& v) { return v.squaredNorm(); }) - velocity.begin());
 }
 
 std::string place(const Model& model, std::size_t point)
 {
-    const Vector3& x = model.points.position[point];
-    return fmt::format("point {} of body '{}' at position ({:.5g}, {:.5g}, {:.5g}) m", model.points.id[point],
+    const Vector3& x = model.state.points.position[point];
+    return fmt::format("point {} of body '{}' at position ({:.5g}, {:.5g}, {:.5g}) m", model.state.points.id[point],
                        model.body_of(point).name, x.x(), x.y(), x.z());
 }
 
 std::string fastest(const Model& model)
 {
     const std::size_t point = fastest_point(model);
-    return fmt::format("the fastest is {} with {:.4g} m/s", place(model, point), model.points.velocity[point].norm());
+    return fmt::format("the fastest is {} with {:.4g} m/s", place(model, point),
+                       model.state.points.velocity[point].norm());
 }
 
 /// What a user can do about energy from nowhere.
@@ -61,16 +62,16 @@ std::string way_out(const CaseDescription& description)
 
 double lost_distance(const Model& model)
 {
-    return 1e3 * model.horizon;
+    return 1e3 * model.state.horizon;
 }
 
 std::string lost_point(const Model& model)
 {
     const double far = lost_distance(model);
     for (std::size_t i = 0; i < model.size(); ++i) {
-        const Vector3& x = model.points.position[i];
-        const bool finite = x.allFinite() && model.points.velocity[i].allFinite();
-        if (finite && (x - model.points.initial_position[i]).norm() < far)
+        const Vector3& x = model.state.points.position[i];
+        const bool finite = x.allFinite() && model.state.points.velocity[i].allFinite();
+        if (finite && (x - model.state.points.initial_position[i]).norm() < far)
             continue;
         return fmt::format("{} {}; a smaller [time] safety or a [time] step shows whether the step is to blame",
                            place(model, i),
@@ -106,27 +107,27 @@ std::string energy_error_beyond_limit(const Model& model, const CaseDescription&
 
 std::string faster_than_driven(const Model& model, const CaseDescription& description, double acceleration)
 {
-    Vector3 lower = model.points.initial_position.front(), upper = lower;
-    for (const Vector3& x : model.points.initial_position) {
+    Vector3 lower = model.state.points.initial_position.front(), upper = lower;
+    for (const Vector3& x : model.state.points.initial_position) {
         lower = lower.cwiseMin(x);
         upper = upper.cwiseMax(x);
     }
-    const double size = (upper - lower).norm() + model.spacing;
+    const double size = (upper - lower).norm() + model.state.spacing;
     double speed = std::sqrt(2.0 * acceleration * size);
     for (const BodyDescription& body : description.bodies)
         speed = std::max(speed, body.velocity.norm() + size * (body.angular_velocity.norm() + body.strain_rate.norm()));
-    for (const Obstacle& obstacle : model.obstacles)
+    for (const Obstacle& obstacle : model.state.obstacles)
         speed = std::max(speed, obstacle.velocity.norm());
     for (const HeldRegionDescription& region : description.held_regions)
         speed = std::max(speed, region.velocity.norm());
     const std::size_t point = fastest_point(model);
-    if (model.points.velocity[point].norm() <= generous * speed)
+    if (model.state.points.velocity[point].norm() <= generous * speed)
         return {};
     return fmt::format(
         "{} moves with {:.4g} m/s, where nothing drives it to more than {:.4g} m/s: the motion grows "
         "instead of settling; a smaller [time] safety shows whether the step is to blame, and an elastic "
         "response of the stage whether the material is",
-        place(model, point), model.points.velocity[point].norm(), speed);
+        place(model, point), model.state.points.velocity[point].norm(), speed);
 }
 
 } // namespace periporo

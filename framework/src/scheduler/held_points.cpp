@@ -48,7 +48,7 @@ std::vector<std::uint32_t> points_of_region(const Model& model, const HeldRegion
     const std::shared_ptr<const Geometry> within = region.within.empty() ? nullptr : geometries.named(region.within);
     std::vector<std::uint32_t> points;
     for (std::uint32_t i = 0; i < model.size(); ++i) {
-        const Vector3& x = model.points.initial_position[i];
+        const Vector3& x = model.state.points.initial_position[i];
         if ((region.body.empty() || model.body_of(i).name == region.body) &&
             (!region.below || x[region.below->axis] < region.below->offset) &&
             (region.layer.empty() ||
@@ -71,7 +71,7 @@ void check_rollers(const Model& model, const StageDescription& stage)
         if (roller.axis == cylinder_axis)
             continue;
         const auto beyond = [&](const Vector3& x) { return x[roller.axis] > roller.offset; };
-        const auto count = std::ranges::count_if(model.points.position, beyond);
+        const auto count = std::ranges::count_if(model.state.points.position, beyond);
         if (count != 0 && static_cast<std::size_t>(count) != model.size())
             throw std::runtime_error(fmt::format(
                 "stage '{0}': {1} of the {2} points lie beyond the roller {3} = {4:.4g} m, which is a mirror for "
@@ -103,9 +103,9 @@ std::vector<HeldDirection> held_directions(const Model& model, const CaseDescrip
         if (roller.axis != cylinder_axis)
             continue;
         for (std::uint32_t i = 0; i < model.size(); ++i) {
-            const Vector3& x = model.points.initial_position[i];
+            const Vector3& x = model.state.points.initial_position[i];
             const Vector3 radial(x.x(), x.y(), 0.0);
-            if (radial.norm() > roller.offset - model.spacing)
+            if (radial.norm() > roller.offset - model.state.spacing)
                 held.push_back({i, radial.normalized()});
         }
     }

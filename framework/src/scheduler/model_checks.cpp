@@ -5,7 +5,7 @@
 
 #include "case/refusal.hpp"
 #include "contact/assignment.hpp"
-#include "families/cell_list.hpp"
+#include "neighbourhood/cell_list.hpp"
 #include "scheduler/geometries.hpp"
 #include "scheduler/gravity_checks.hpp"
 
@@ -28,7 +28,7 @@ std::string place(const Vector3& x)
 
 std::string body_key(const Model& model, std::size_t body)
 {
-    return "body." + model.bodies[body].name;
+    return "body." + model.state.bodies[body].name;
 }
 
 /// The box around the points of a body and, as far as they tell, around the body: half a spacing and a little farther.
@@ -37,12 +37,12 @@ Bounds bounds_of(const Model& model, std::size_t body)
     Bounds bounds{Vector3::Constant(std::numeric_limits<double>::infinity()),
                   Vector3::Constant(-std::numeric_limits<double>::infinity())};
     for (std::size_t i = 0; i < model.size(); ++i)
-        if (model.points.body[i] == body) {
-            bounds.lower = bounds.lower.cwiseMin(model.points.position[i]);
-            bounds.upper = bounds.upper.cwiseMax(model.points.position[i]);
+        if (model.state.points.body[i] == body) {
+            bounds.lower = bounds.lower.cwiseMin(model.state.points.position[i]);
+            bounds.upper = bounds.upper.cwiseMax(model.state.points.position[i]);
         }
-    bounds.lower.array() -= model.spacing;
-    bounds.upper.array() += model.spacing;
+    bounds.lower.array() -= model.state.spacing;
+    bounds.upper.array() += model.state.spacing;
     return bounds;
 }
 
@@ -50,26 +50,28 @@ Bounds bounds_of(const Model& model, std::size_t body)
 void check_resolution(const Model& model, const CaseDescription& description)
 {
     for (std::size_t i = 0; i < model.size(); ++i) {
-        const double gap = model.points.position[i].cwiseAbs().maxCoeff() * std::numeric_limits<double>::epsilon();
-        if (gap > coincident * model.spacing)
-            throw refusal(description, body_key(model, model.points.body[i]) + ".geometry",
+        const double gap =
+            model.state.points.position[i].cwiseAbs().maxCoeff() * std::numeric_limits<double>::epsilon();
+        if (gap > coincident * model.state.spacing)
+            throw refusal(description, body_key(model, model.state.points.body[i]) + ".geometry",
                           fmt::format("points of body '{}' coincide: numbers as large as the coordinates {} lie {:.2g} "
                                       "m apart, and the spacing is {:.4g} m",
-                                      model.body_of(i).name, place(model.points.position[i]), gap, model.spacing),
+                                      model.body_of(i).name, place(model.state.points.position[i]), gap,
+                                      model.state.spacing),
                           "move the case nearer to the origin");
     }
 }
 
 void check_coincidence(const Model& model, const CaseDescription& description)
 {
-    const std::vector<Vector3>& x = model.points.position;
-    const CellList cells(x, model.horizon);
+    const std::vector<Vector3>& x = model.state.points.position;
+    const CellList cells(x, model.state.horizon);
     for (std::uint32_t i = 0; i < model.size(); ++i)
         cells.visit_near(x[i], [&](std::uint32_t j) {
-            if (j > i && (x[i] - x[j]).norm() < coincident * model.spacing)
-                throw refusal(description, body_key(model, model.points.body[i]) + ".geometry",
+            if (j > i && (x[i] - x[j]).norm() < coincident * model.state.spacing)
+                throw refusal(description, body_key(model, model.state.points.body[i]) + ".geometry",
                               fmt::format("point {} of body '{}' and point {} of body '{}' coincide at {}",
-                                          model.points.id[i], model.body_of(i).name, model.points.id[j],
+                                          model.state.points.id[i], model.body_of(i).name, model.state.points.id[j],
                                           model.body_of(j).name, place(x[i])),
                               "every point needs a place of its own");
         });
@@ -86,15 +88,15 @@ Intruder intruders(const Model& model, std::size_t body, const Bounds& bounds, c
 {
     Intruder found;
     for (std::size_t i = 0; i < model.size(); ++i) {
-        const Vector3& x = model.points.position[i];
-        if (model.points.body[i] != body || (x.array() < bounds.lower.array()).any() ||
+        const Vector3& x = model.state.points.position[i];
+        if (model.state.points.body[i] != body || (x.array() < bounds.lower.array()).any() ||
             (x.array() > bounds.upper.array()).any() || !other.contains(x))
             continue;
         ++found.count;
         found.some = i;
         bool deep = true;
         for (int c = 0; c < 3 && deep; ++c)
-            for (const double side : {-model.spacing, model.spacing})
+            for (const double side : {-model.state.spacing, model.state.spacing})
                 deep = deep && other.contains(x + side * Vector3::Unit(c));
         if (deep)
             found.deep = std::min(found.deep, i);
@@ -109,9 +111,9 @@ void check_overlap_of(const Model& model, const CaseDescription& description, st
     if (found.count == 0)
         return;
     const bool deep = found.deep < model.size();
-    const std::string what =
-        fmt::format("{} points of body '{}' lie in body '{}', one of them at {}", found.count, model.bodies[a].name,
-                    model.bodies[b].name, place(model.points.position[deep ? found.deep : found.some]));
+    const std::string what = fmt::format("{} points of body '{}' lie in body '{}', one of them at {}", found.count,
+                                         model.state.bodies[a].name, model.state.bodies[b].name,
+                                         place(model.state.points.position[deep ? found.deep : found.some]));
     if (deep)
         throw refusal(description, body_key(model, a) + ".geometry", what, "move one of the bodies, or cut it");
     suspicions.push_back(suspicion(description, body_key(model, a) + ".geometry", what));
@@ -122,7 +124,7 @@ void check_overlaps(const Model& model, const CaseDescription& description, cons
 {
     Geometries geometries(description, registry);
     std::vector<Bounds> bounds;
-    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    for (std::size_t b = 0; b < model.state.bodies.size(); ++b)
         bounds.push_back(bounds_of(model, b));
     for (std::size_t a = 0; a < bounds.size(); ++a)
         for (std::size_t b = 0; b < bounds.size(); ++b) {
@@ -148,10 +150,10 @@ void check_surfaces(const BuiltModel& built, const CaseDescription& description,
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < model.size(); ++i) {
             Vector3 normal;
-            if (!names(contact, model.points.body[i]))
+            if (!names(contact, model.state.points.body[i]))
                 continue;
             ++all;
-            const double distance = surface.distance(model.points.position[i], normal);
+            const double distance = surface.distance(model.state.points.position[i], normal);
             behind += distance < 0.0 ? 1 : 0;
             if (distance < least) {
                 least = distance;
@@ -163,9 +165,9 @@ void check_surfaces(const BuiltModel& built, const CaseDescription& description,
         const std::string what = fmt::format(
             "{} of the {} points of body '{}' begin {} {}, the deepest {:.4g} m at {}", behind, all,
             model.body_of(deepest).name, contact.obstacle ? "inside obstacle" : "below the surface of",
-            contact.obstacle ? "'" + model.obstacles[*contact.obstacle].name + "'" : fmt::format("contact {}", c),
-            -least, place(model.points.position[deepest]));
-        if (least < -model.spacing)
+            contact.obstacle ? "'" + model.state.obstacles[*contact.obstacle].name + "'" : fmt::format("contact {}", c),
+            -least, place(model.state.points.position[deepest]));
+        if (least < -model.state.spacing)
             throw refusal(description, fmt::format("contact.{}", c), what,
                           contact.obstacle ? "move the body or the obstacle"
                                            : "move the body or the surface, or turn its normal to the body's side");
@@ -190,20 +192,20 @@ void check_friction(const BuiltModel& built, const CaseDescription& description,
 /// A body that outruns its own waves comes apart in the first steps, with errors that name something else.
 void check_speeds(const Model& model, const CaseDescription& description, std::vector<std::string>& suspicions)
 {
-    std::vector<double> fastest(model.bodies.size(), 0.0), density(model.bodies.size(), 0.0);
+    std::vector<double> fastest(model.state.bodies.size(), 0.0), density(model.state.bodies.size(), 0.0);
     for (std::size_t i = 0; i < model.size(); ++i) {
-        const std::uint32_t body = model.points.body[i];
-        fastest[body] = std::max(fastest[body], model.points.velocity[i].norm());
-        density[body] = model.points.mass[i] / model.points.volume[i];
+        const std::uint32_t body = model.state.points.body[i];
+        fastest[body] = std::max(fastest[body], model.state.points.velocity[i].norm());
+        density[body] = model.state.points.mass[i] / model.state.points.volume[i];
     }
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-        const Material& material = *model.bodies[b].material;
+    for (std::size_t b = 0; b < model.state.bodies.size(); ++b) {
+        const Material& material = *model.state.bodies[b].material;
         const double wave = std::sqrt((material.bulk_modulus() + 4.0 / 3.0 * material.shear_modulus()) / density[b]);
         if (fastest[b] > wave)
             suspicions.push_back(suspicion(
                 description, body_key(model, b) + ".velocity",
                 fmt::format("body '{}' begins with up to {:.4g} m/s, faster than a wave runs in it, {:.4g} m/s",
-                            model.bodies[b].name, fastest[b], wave)));
+                            model.state.bodies[b].name, fastest[b], wave)));
     }
 }
 

@@ -62,7 +62,7 @@ Snapshot OutputSchedule::snapshot(const Model& model, const ForceState& force_st
     return {at.step,
             at.time,
             stage,
-            {model.points.position.front().data(), 3 * model.size()},
+            {model.state.points.position.front().data(), 3 * model.size()},
             fields_.collect(model, force_state)};
 }
 

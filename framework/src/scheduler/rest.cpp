@@ -14,7 +14,7 @@ namespace {
 /// Does an obstacle or a region of points move as the case says?
 bool is_driven(const Model& model, const CaseDescription& description, const StageDescription& stage)
 {
-    return std::ranges::any_of(model.obstacles, [](const Obstacle& o) { return !o.velocity.isZero(0.0); }) ||
+    return std::ranges::any_of(model.state.obstacles, [](const Obstacle& o) { return !o.velocity.isZero(0.0); }) ||
            std::ranges::any_of(description.held_regions, [&stage](const HeldRegionDescription& region) {
                return !region.velocity.isZero(0.0) && applies_in(region.stages, stage);
            });
@@ -25,12 +25,12 @@ double time_of_fall(const Model& model, const Vector3& gravity)
 {
     const double g = gravity.norm();
     double lowest = INFINITY, highest = -INFINITY;
-    for (const Vector3& x : model.points.initial_position) {
+    for (const Vector3& x : model.state.points.initial_position) {
         const double height = -x.dot(gravity) / g;
         lowest = std::min(lowest, height);
         highest = std::max(highest, height);
     }
-    return std::sqrt(2.0 * std::max(highest - lowest, model.spacing) / g);
+    return std::sqrt(2.0 * std::max(highest - lowest, model.state.spacing) / g);
 }
 
 } // namespace
@@ -40,7 +40,7 @@ RestRule rest_rule(const Model& model, const CaseDescription& description, const
     constexpr double windows_of_fall = 8.0, spacings_of_window = 0.1;
     RestRule rule{stage.rest_speed.value(), stage.residual, 0.0, from, INFINITY};
     if (!(description.gravity.norm() > 0.0)) {
-        rule.window = spacings_of_window * model.spacing / rule.speed;
+        rule.window = spacings_of_window * model.state.spacing / rule.speed;
         return rule;
     }
     const double fall = time_of_fall(model, description.gravity);

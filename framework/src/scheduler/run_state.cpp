@@ -19,8 +19,8 @@ void require_near_points(const Model& model)
 {
     const double far = lost_distance(model);
     for (std::size_t i = 0; i < model.size(); ++i)
-        if (!((model.points.position[i] - model.points.initial_position[i]).norm() < far) ||
-            !((model.refresh_position[i] - model.points.initial_position[i]).norm() < far))
+        if (!((model.state.points.position[i] - model.state.points.initial_position[i]).norm() < far) ||
+            !((model.neighbourhood.positions[i] - model.state.points.initial_position[i]).norm() < far))
             throw std::runtime_error("points lie where no run has them");
 }
 
@@ -34,15 +34,16 @@ void restore(ArchiveReader& archive, const RunState& run, const std::vector<Stag
     enter_stage(run.position.stage_of_model());
     archive.part("model", model);
     require_near_points(model);
-    model.isometries.resume();
+    model.neighbourhood.isometries.resume();
     // Families and contact candidates are those of the last refresh.
     Families::Kept families;
     archive.part("families", families, points);
     resume_families(model, run.force_state, families);
-    archive.part("contact", run.contact, points, model.obstacles.size());
+    archive.part("contact", run.contact, points, model.state.obstacles.size());
     run.contact.resume(model, contact_slack);
     archive.part("bonds", model.bonds);
-    model.update_records();
+    archive.part("result", model.result);
+    model.gather_ends();
     archive.part("dynamics", run.dynamics);
     archive.part("step_estimate", run.frequency, points);
     archive.part("water", run.water);
@@ -67,9 +68,10 @@ void save_run(ArchiveWriter& archive, const RunState& run)
     const std::size_t points = run.model.size();
     archive.part("position", run.position, points);
     archive.part("model", run.model);
-    archive.part("families", run.model.families.kept(), points);
-    archive.part("contact", run.contact, points, run.model.obstacles.size());
+    archive.part("families", run.model.neighbourhood.families.kept(), points);
+    archive.part("contact", run.contact, points, run.model.state.obstacles.size());
     archive.part("bonds", run.model.bonds);
+    archive.part("result", run.model.result);
     archive.part("dynamics", run.dynamics);
     archive.part("step_estimate", run.frequency, points);
     archive.part("water", run.water);

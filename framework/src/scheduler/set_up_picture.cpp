@@ -3,7 +3,7 @@
 //
 #include "scheduler/set_up_picture.hpp"
 
-#include "families/cell_list.hpp"
+#include "neighbourhood/cell_list.hpp"
 #include "scheduler/held_points.hpp"
 
 #include <Eigen/Geometry>
@@ -56,13 +56,13 @@ struct Frame {
 
 Bounds box_of(const Model& model)
 {
-    Bounds box{model.points.position.front(), model.points.position.front()};
-    for (const Vector3& x : model.points.position) {
+    Bounds box{model.state.points.position.front(), model.state.points.position.front()};
+    for (const Vector3& x : model.state.points.position) {
         box.lower = box.lower.cwiseMin(x);
         box.upper = box.upper.cwiseMax(x);
     }
-    box.lower.array() -= 0.5 * model.spacing;
-    box.upper.array() += 0.5 * model.spacing;
+    box.lower.array() -= 0.5 * model.state.spacing;
+    box.upper.array() += 0.5 * model.state.spacing;
     return box;
 }
 
@@ -88,10 +88,10 @@ std::vector<Disc> discs_of_bodies(const BuiltModel& built, const CaseDescription
     for (std::size_t n = 0; n < visible.size(); n += stride) {
         const std::uint32_t i = visible[n];
         SvgDrawing::Style style;
-        style.fill = body_colours[model.points.body[i] % body_colours.size()];
+        style.fill = body_colours[model.state.points.body[i] % body_colours.size()];
         style.stroke = is_held[i] != 0 ? "#000000" : "#ffffff";
         style.width = is_held[i] != 0 ? 1.2 : 0.4;
-        discs.push_back({model.points.position[i], 0.5 * model.spacing, style});
+        discs.push_back({model.state.points.position[i], 0.5 * model.state.spacing, style});
     }
     return discs;
 }
@@ -219,14 +219,14 @@ void draw_legend(SvgDrawing& drawing, const BuiltModel& built, const CaseDescrip
 {
     const Model& model = built.model;
     double line = top;
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    for (std::size_t b = 0; b < model.state.bodies.size(); ++b) {
         std::size_t count = 0;
         double volume = 0.0, mass = 0.0;
         for (std::size_t i = 0; i < model.size(); ++i)
-            if (model.points.body[i] == b)
-                ++count, volume += model.points.volume[i], mass += model.points.mass[i];
+            if (model.state.points.body[i] == b)
+                ++count, volume += model.state.points.volume[i], mass += model.state.points.mass[i];
         drawing.circle(left, line - 4.0, 6.0, {body_colours[b % body_colours.size()], "none", 0.0, 1.0, false});
-        std::string text = fmt::format("body '{}' of '{}': {} points, {:.4g} m3, {:.4g} kg", model.bodies[b].name,
+        std::string text = fmt::format("body '{}' of '{}': {} points, {:.4g} m3, {:.4g} kg", model.state.bodies[b].name,
                                        description.bodies[b].material, count, volume, mass);
         const Vector3& v = description.bodies[b].velocity;
         if (!v.isZero(0.0))
@@ -234,11 +234,11 @@ void draw_legend(SvgDrawing& drawing, const BuiltModel& built, const CaseDescrip
         drawing.text(left + 14.0, line, text, 13);
         line += 20.0;
     }
-    for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    for (std::size_t o = 0; o < model.state.obstacles.size(); ++o) {
         drawing.circle(left, line - 4.0, 6.0, {obstacle_colour, "none", 0.0, 0.6, false});
         const Vector3& v = description.obstacles[o].velocity;
         drawing.text(left + 14.0, line,
-                     fmt::format("obstacle '{}'{}", model.obstacles[o].name,
+                     fmt::format("obstacle '{}'{}", model.state.obstacles[o].name,
                                  v.isZero(0.0)
                                      ? ""
                                      : fmt::format(", moves with ({:.3g}, {:.3g}, {:.3g}) m/s", v.x(), v.y(), v.z())),
@@ -249,8 +249,8 @@ void draw_legend(SvgDrawing& drawing, const BuiltModel& built, const CaseDescrip
     drawing.text(left, line,
                  fmt::format("bodies: {:.4g} x {:.4g} x {:.4g} mm; spacing {:.4g} mm; gravity ({:.3g}, {:.3g}, {:.3g}) "
                              "m/s2; black rims: motion prescribed",
-                             1e3 * size.x(), 1e3 * size.y(), 1e3 * size.z(), 1e3 * model.spacing, model.gravity.x(),
-                             model.gravity.y(), model.gravity.z()),
+                             1e3 * size.x(), 1e3 * size.y(), 1e3 * size.z(), 1e3 * model.state.spacing,
+                             model.state.gravity.x(), model.state.gravity.y(), model.state.gravity.z()),
                  13);
 }
 
@@ -258,8 +258,8 @@ void draw_legend(SvgDrawing& drawing, const BuiltModel& built, const CaseDescrip
 
 std::vector<std::uint32_t> visible_points(const Model& model)
 {
-    const std::vector<Vector3>& positions = model.points.position;
-    const double reach = hiding_distance * model.spacing;
+    const std::vector<Vector3>& positions = model.state.points.position;
+    const double reach = hiding_distance * model.state.spacing;
     const CellList cells(positions, reach);
     std::vector<std::uint32_t> visible;
     for (std::uint32_t i = 0; i < model.size(); ++i) {
@@ -267,7 +267,7 @@ std::vector<std::uint32_t> visible_points(const Model& model)
         cells.visit_near(positions[i], [&](std::uint32_t c) {
             const Vector3 apart = positions[c] - positions[i];
             const double distance = apart.norm();
-            if (c == i || distance > reach || model.points.body[c] != model.points.body[i])
+            if (c == i || distance > reach || model.state.points.body[c] != model.state.points.body[i])
                 return;
             for (int axis = 0; axis < 3; ++axis)
                 if (std::abs(apart[axis]) > hiding_cosine * distance)
@@ -286,7 +286,7 @@ SvgDrawing draw_set_up(const BuiltModel& built, const CaseDescription& descripti
     const Bounds around{bodies.lower.array() - margin, bodies.upper.array() + margin};
     std::vector<Disc> discs;
     Bounds box = bodies;
-    for (const Obstacle& obstacle : built.model.obstacles)
+    for (const Obstacle& obstacle : built.model.state.obstacles)
         add_obstacle(obstacle, around, discs);
     for (const Disc& disc : discs) {
         box.lower = box.lower.cwiseMin(disc.position);
@@ -295,7 +295,8 @@ SvgDrawing draw_set_up(const BuiltModel& built, const CaseDescription& descripti
     const std::vector<Disc> points = discs_of_bodies(built, description);
     discs.insert(discs.end(), points.begin(), points.end());
 
-    const double legend = 20.0 * static_cast<double>(built.model.bodies.size() + built.model.obstacles.size() + 1);
+    const double legend =
+        20.0 * static_cast<double>(built.model.state.bodies.size() + built.model.state.obstacles.size() + 1);
     SvgDrawing drawing(1240.0, 740.0 + legend);
     drawing.text(30.0, 36.0, description.title, 20);
     View corner(drawing, from_corner(), box, {70.0, 80.0, 560.0, 580.0});

@@ -141,8 +141,9 @@ RunOutcome Simulation::run()
         outputs_.finish(true);
     } catch (const MaterialFailure& failure) {
         fail(fmt::format("{} at position ({:.5g}, {:.5g}, {:.5g}) m", failure.what(),
-                         model_.points.position[failure.point()].x(), model_.points.position[failure.point()].y(),
-                         model_.points.position[failure.point()].z()));
+                         model_.state.points.position[failure.point()].x(),
+                         model_.state.points.position[failure.point()].y(),
+                         model_.state.points.position[failure.point()].z()));
     } catch (const RunFailure&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -238,7 +239,7 @@ void Simulation::restore(ArchiveReader& checkpoint)
 
 void Simulation::enter_stage(const StageDescription& stage)
 {
-    model_.isometries.set_generators(image_generators(description_, stage));
+    model_.neighbourhood.isometries.set_generators(image_generators(description_, stage));
     set_obstacles(model_, description_, stage);
 }
 
@@ -255,8 +256,8 @@ void Simulation::begin_stage()
         find_first_families(model_, *force_state_);
         set_initial_stress(model_, *force_state_, description_);
         log_->info("{} points, {} bonds ({:.1f} a point), {:.1f} MB ({:.1f} kB a point)", model_.size(),
-                   model_.families.bonds(),
-                   static_cast<double>(model_.families.bonds()) / static_cast<double>(model_.size()),
+                   model_.neighbourhood.families.bonds(),
+                   static_cast<double>(model_.neighbourhood.families.bonds()) / static_cast<double>(model_.size()),
                    1e-6 * static_cast<double>(model_.memory()),
                    1e-3 * static_cast<double>(model_.memory()) / static_cast<double>(model_.size()));
     } else {
@@ -317,7 +318,7 @@ void Simulation::end_stage()
     log_->info("stage '{}' ended, {}: {} steps, residual {:.2e}, mean speed {:.2e} m/s", stage.name, stage_end_,
                at_.stage_step, dynamics_.residual(), dynamics_.mean_speed());
     if (is_quasi_static(stage)) {
-        std::fill(model_.points.velocity.begin(), model_.points.velocity.end(), Vector3::Zero());
+        std::fill(model_.state.points.velocity.begin(), model_.state.points.velocity.end(), Vector3::Zero());
         at_.error_before = at_.ledger_open ? dynamics_.ledger().error() - dynamics_.ledger().kinetic : 0.0;
     }
 }
@@ -396,7 +397,7 @@ bool Simulation::quasi_static(const StageDescription& stage)
     options.response = stage.response == "elastic" ? MaterialResponse::elastic : MaterialResponse::full;
     // At rest means slower than one would become by falling over one spacing, by the tolerance of the residual. Without
     // gravity the unbalanced force at the start sets the acceleration.
-    const auto rest = [&] { return stage.residual * std::sqrt(dynamics_.acceleration_scale() * model_.spacing); };
+    const auto rest = [&] { return stage.residual * std::sqrt(dynamics_.acceleration_scale() * model_.state.spacing); };
     for (bool settled = false; !settled;) {
         if (at_.stage_step >= static_cast<std::uint64_t>(stage.maximum_steps))
             fail(fmt::format("no equilibrium after {} steps: residual {:.2e} (wanted {:.2e}), mean speed {:.2e} m/s "
@@ -448,8 +449,8 @@ std::string Simulation::stage_line(double fraction) const
     const double left = (description_.stages[at_.stage].duration * (1.0 - fraction)) / (rate * at_.time_step);
     std::size_t inactive = 0, free_grains = 0;
     for (std::size_t i = 0; i < model_.size(); ++i) {
-        inactive += model_.inactive_bonds[i];
-        free_grains += model_.free_grain[i];
+        inactive += model_.result.inactive_bonds[i];
+        free_grains += model_.result.detached[i];
     }
     return fmt::format(
         "{}: {:.4f} s ({:.0f} %), {:.3g} point-steps/s, {} left, E_kin {:.3g} J, {} inactive bonds, {} free "
@@ -478,11 +479,11 @@ void Simulation::check_crossings()
     for (const Crossing& crossing : contact_.crossings()) {
         const ContactDescription& contact = description_.contacts[crossing.assignment];
         const std::size_t i = crossing.point;
-        const Vector3& x = model_.points.position[i];
+        const Vector3& x = model_.state.points.position[i];
         const std::string what = fmt::format(
             "point {} of body '{}' went through obstacle '{}' and is behind it at position ({:.5g}, {:.5g}, {:.5g}) m",
-            model_.points.id[i], model_.body_of(i).name,
-            model_.obstacles[*contact_.assignments()[crossing.assignment].obstacle].name, x.x(), x.y(), x.z());
+            model_.state.points.id[i], model_.body_of(i).name,
+            model_.state.obstacles[*contact_.assignments()[crossing.assignment].obstacle].name, x.x(), x.y(), x.z());
         if (contact.crossing_stops)
             fail(fmt::format("{}; a stiffer law, a thicker obstacle or a smaller step would hold it, and crossing = "
                              "\"warn\" in contact {} lets such points go",
@@ -559,7 +560,7 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
     write_json(summary, options_.directory / "summary.json");
     log_->info("{}: {} steps, {} wall, {:.3g} point-steps/s, {:.3g} bond-steps/s", outcome, at_.step,
                duration_text(wall_seconds()), point_rate,
-               static_cast<double>(model_.families.bonds()) * steps_per_second);
+               static_cast<double>(model_.neighbourhood.families.bonds()) * steps_per_second);
 }
 
 void Simulation::fail(const std::string& what)

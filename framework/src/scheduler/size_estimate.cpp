@@ -4,7 +4,7 @@
 #include "scheduler/size_estimate.hpp"
 
 #include "case/refusal.hpp"
-#include "families/families.hpp"
+#include "neighbourhood/families.hpp"
 #include "scheduler/build_model.hpp"
 #include "scheduler/geometries.hpp"
 

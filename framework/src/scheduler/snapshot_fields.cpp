@@ -37,7 +37,7 @@ void SnapshotFields::add_integer(std::string name, std::string description, std:
 
 void SnapshotFields::add_volumes(const Model& model)
 {
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     const std::size_t n = model.size();
     fields_.push_back({"volume",
                        "m3",
@@ -62,7 +62,7 @@ void SnapshotFields::add_volumes(const Model& model)
 
 const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const ForceState& force_state)
 {
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     const std::size_t n = model.size();
     reals_.clear();
     integers_.clear();
@@ -77,18 +77,18 @@ const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const 
     add_real("displacement", "m", "position minus position at the start of the run", 3, std::move(displacement));
     add_volumes(model);
 
-    std::vector<double> states = model.point_state;
+    std::vector<double> states = model.state.point_states.values;
     mean_point_states(model, force_state, states);
     std::vector<double> stress(6 * n);
     for (std::size_t i = 0; i < n; ++i)
-        std::copy_n(states.data() + i * model.state_stride, 6, stress.data() + 6 * i);
+        std::copy_n(states.data() + i * model.state.point_states.stride, 6, stress.data() + 6 * i);
     add_real(
         "effective_stress", "Pa",
         "effective Cauchy stress, tension positive, mean over the active bonds of the point; components xx, yy, zz, "
         "xy, yz, xz",
         6, std::move(stress));
-    for (std::size_t body = 0; body < model.bodies.size(); ++body) {
-        const std::vector<StateVariable>& variables = model.bodies[body].material->state_variables();
+    for (std::size_t body = 0; body < model.state.bodies.size(); ++body) {
+        const std::vector<StateVariable>& variables = model.state.bodies[body].material->state_variables();
         for (const StateVariable& variable : variables) {
             if (std::any_of(fields_.begin(), fields_.end(),
                             [&](const FieldView& f) { return f.name == variable.name; }))
@@ -98,7 +98,7 @@ const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const 
                 const std::vector<StateVariable>& own = model.body_of(i).material->state_variables();
                 for (std::size_t s = 0; s < own.size(); ++s)
                     if (own[s].name == variable.name)
-                        values[i] = states[i * model.state_stride + 6 + s];
+                        values[i] = states[i * model.state.point_states.stride + 6 + s];
             }
             add_real(variable.name, variable.unit, variable.description + "; mean over the active bonds of the point",
                      1, std::move(values));
@@ -118,11 +118,12 @@ const std::vector<FieldView>& SnapshotFields::collect(const Model& model, const 
     fields_.push_back({"saturation", "-", "degree of saturation of water", 1, points.saturation, {}});
     std::vector<std::int64_t> family(n);
     for (std::size_t i = 0; i < n; ++i)
-        family[i] = static_cast<std::int64_t>(model.families[i].count);
+        family[i] = static_cast<std::int64_t>(model.neighbourhood.families[i].count);
     add_integer("family_size", "number of bonds of the point", std::move(family));
     add_integer("inactive_bonds", "bonds that carry no stress because their sub-horizon is degenerate",
-                {model.inactive_bonds.begin(), model.inactive_bonds.end()});
-    add_integer("free_grain", "1 where no bond is active", {model.free_grain.begin(), model.free_grain.end()});
+                {model.result.inactive_bonds.begin(), model.result.inactive_bonds.end()});
+    add_integer("free_grain", "1 where no bond is active",
+                {model.result.detached.begin(), model.result.detached.end()});
     add_integer("body", "index of the body, in the order of the case", {points.body.begin(), points.body.end()});
     fields_.push_back({"id", "-", "number of the point within its body", 1, {}, points.id});
     return fields_;
@@ -150,7 +151,7 @@ std::vector<HistoryColumn> history_columns(const Model& model)
         {"height", "m", "largest vertical coordinate of such a point plus half a spacing"},
         {"inactive_bonds", "-", "bonds that carry no stress because their sub-horizon is degenerate"},
         {"free_grains", "-", "points without an active bond"}};
-    for (const Obstacle& obstacle : model.obstacles)
+    for (const Obstacle& obstacle : model.state.obstacles)
         for (const char axis : {'x', 'y', 'z'}) {
             columns.push_back({fmt::format("{}_force_{}", obstacle.name, axis), "N",
                                fmt::format("force on obstacle '{}', of the points that are computed, without images",
@@ -166,36 +167,37 @@ std::vector<double> history_row(const Model& model, const Dynamics& dynamics, do
     double speed = 0.0;
     double front = 0.0;
     double height = -std::numeric_limits<double>::infinity();
-    const bool ground_alone = std::ranges::all_of(model.bodies, &Body::ground);
+    const bool ground_alone = std::ranges::all_of(model.state.bodies, &Body::ground);
     for (std::size_t i = 0; i < model.size(); ++i) {
-        const Vector3& x = model.points.position[i];
-        speed = std::max(speed, model.points.velocity[i].norm());
+        const Vector3& x = model.state.points.position[i];
+        speed = std::max(speed, model.state.points.velocity[i].norm());
         if (model.body_of(i).ground && !ground_alone)
             continue;
         front = std::max(front, std::hypot(x.x(), x.y()));
-        height = std::max(height, x.z() + 0.5 * model.spacing);
+        height = std::max(height, x.z() + 0.5 * model.state.spacing);
     }
     const EnergyLedger& ledger = dynamics.ledger();
-    std::vector<double> row{
-        time,
-        time_step,
-        ledger.kinetic,
-        ledger.gravity,
-        ledger.stress_work,
-        ledger.contact,
-        ledger.friction,
-        ledger.collision,
-        ledger.boundary,
-        ledger.error(),
-        speed,
-        front,
-        height,
-        static_cast<double>(std::accumulate(model.inactive_bonds.begin(), model.inactive_bonds.end(), std::size_t{0})),
-        static_cast<double>(std::accumulate(model.free_grain.begin(), model.free_grain.end(), std::size_t{0}))};
-    for (std::size_t o = 0; o < model.obstacles.size(); ++o)
+    std::vector<double> row{time,
+                            time_step,
+                            ledger.kinetic,
+                            ledger.gravity,
+                            ledger.stress_work,
+                            ledger.contact,
+                            ledger.friction,
+                            ledger.collision,
+                            ledger.boundary,
+                            ledger.error(),
+                            speed,
+                            front,
+                            height,
+                            static_cast<double>(std::accumulate(model.result.inactive_bonds.begin(),
+                                                                model.result.inactive_bonds.end(), std::size_t{0})),
+                            static_cast<double>(std::accumulate(model.result.detached.begin(),
+                                                                model.result.detached.end(), std::size_t{0}))};
+    for (std::size_t o = 0; o < model.state.obstacles.size(); ++o)
         for (Eigen::Index c = 0; c < 3; ++c) {
             row.push_back(-dynamics.contact().reactions_of_obstacles()[o][c]);
-            row.push_back(model.obstacles[o].shift[c]);
+            row.push_back(model.state.obstacles[o].shift[c]);
         }
     return row;
 }

@@ -15,8 +15,8 @@ nlohmann::json summary_of(const CaseDescription& description, const Model& model
             symmetry.push_back(std::string(1, "xyz"[boundary.plane.axis]));
     nlohmann::json the_case{{"title", description.title},
                             {"file", description.file.filename().string()},
-                            {"spacing", model.spacing},
-                            {"horizon", model.horizon},
+                            {"spacing", model.state.spacing},
+                            {"horizon", model.state.horizon},
                             {"force_state", description.operators.force_state},
                             {"influence", description.operators.influence},
                             {"symmetry", symmetry}};
@@ -31,7 +31,7 @@ nlohmann::json summary_of(const CaseDescription& description, const Model& model
     return {{"format", "periporo summary"},
             {"case", the_case},
             {"points", model.size()},
-            {"bonds", model.families.bonds()},
+            {"bonds", model.neighbourhood.families.bonds()},
             {"refreshes", dynamics.refreshes()},
             {"bytes_per_point", static_cast<double>(model.memory()) / static_cast<double>(model.size())},
             {"phase_seconds", phases},

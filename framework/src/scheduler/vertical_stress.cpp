@@ -21,11 +21,11 @@ constexpr double same_section = 0.05; ///< counts of points of two layers that d
 
 std::optional<VerticalStress> vertical_stress(const Model& model, const ForceState& force_state, std::uint32_t body)
 {
-    const double g = model.gravity.norm();
+    const double g = model.state.gravity.norm();
     if (g <= 0.0)
         return std::nullopt;
-    const Vector3 up = -model.gravity / g;
-    std::vector<double> states = model.point_state;
+    const Vector3 up = -model.state.gravity / g;
+    std::vector<double> states = model.state.point_states.values;
     mean_point_states(model, force_state, states);
     const Overburden overburden(model, body);
     struct Sums {
@@ -33,14 +33,15 @@ std::optional<VerticalStress> vertical_stress(const Model& model, const ForceSta
     };
     std::map<long, Sums> layers;
     for (std::size_t i = 0; i < model.size(); ++i) {
-        if (model.points.body[i] != body)
+        if (model.state.points.body[i] != body)
             continue;
-        const double* s = states.data() + i * model.state_stride;
+        const double* s = states.data() + i * model.state.point_states.stride;
         Eigen::Matrix3d stress;
         stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-        const double depth = overburden.top() - model.points.position[i].dot(up);
-        Sums& layer = layers[std::lround(std::floor(depth / model.spacing))];
-        layer.stress += up.dot(stress * up) + pore_stress(model.points.suction(i), model.points.saturation[i]);
+        const double depth = overburden.top() - model.state.points.position[i].dot(up);
+        Sums& layer = layers[std::lround(std::floor(depth / model.state.spacing))];
+        layer.stress +=
+            up.dot(stress * up) + pore_stress(model.state.points.suction(i), model.state.points.saturation[i]);
         layer.expected -= overburden.at(depth, i);
         layer.depth += depth;
         layer.count += 1.0;
@@ -61,7 +62,7 @@ std::optional<VerticalStress> vertical_stress(const Model& model, const ForceSta
     for (const VerticalStress::Layer& layer : profile.layers) {
         const double deviation = std::abs(layer.stress - layer.expected) / deepest;
         profile.largest_deviation = std::max(profile.largest_deviation, deviation);
-        if (layer.depth > model.horizon && layer.depth < bottom - model.horizon)
+        if (layer.depth > model.state.horizon && layer.depth < bottom - model.state.horizon)
             profile.inner_deviation = std::max(profile.inner_deviation, deviation);
     }
     return profile;

@@ -1,10 +1,11 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// The step, its forces, and the ledger.
 #include "time/dynamics.hpp"
 
 #include "operator/refresh.hpp"
-#include "time/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 #include "water/standing_water.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ Dynamics::Dynamics(Model& model, const ForceState& force_state, ContactForces& c
 void Dynamics::refresh()
 {
     times_.time(Phase::refresh, [&] {
-        model_.update_records();
+        model_.gather_ends();
         const std::vector<ClosedPair> closed = contact_.closed_pairs(model_);
         const double before = closed.empty() ? 0.0 : contact_.energy_within_bodies(model_);
         contact_.energy_on_smoothed(model_, stored_before_);
@@ -42,11 +43,11 @@ void Dynamics::start()
 {
     state_.force_scale = 0.0;
     state_.undamped_force.clear();
-    // What comes, goes or begins to move at once does work too: points that are brought to speed, contacts with an
-    // obstacle that is taken away.
+    // Adding, removing or starting an obstacle, and bringing held points to speed, changes the energy; the ledger books
+    // it here.
     const double before = kinetic_energy() + contact_.energy();
     hold_velocities();
-    model_.update_records();
+    model_.gather_ends();
     contact_.find_candidates(model_, settings_.skin);
     contact_.make_room(model_);
     force_state_.evaluate(model_, {StressUpdate::keep, MaterialResponse::full, 0.0});
@@ -63,12 +64,12 @@ void Dynamics::step(const StepOptions& options)
         drift(options.time_step);
         refresh_due = refresh_due || 2.0 * displacement_since_refresh(model_) > settings_.skin;
         if (!refresh_due)
-            model_.update_records();
+            model_.gather_ends();
     });
     if (refresh_due)
         refresh();
     times_.time(Phase::contact, [&] { contact_.follow_surfaces(model_); });
-    times_.time_operator(model_, [&] {
+    times_.time_operator(model_.result.times, [&] {
         force_state_.evaluate(model_, {StressUpdate::advance, options.response, options.time_step});
     });
     times_.time(Phase::contact, [&] { sum_forces(options); });
@@ -80,23 +81,23 @@ void Dynamics::step(const StepOptions& options)
 
 void Dynamics::drift(double time_step)
 {
-    Points& points = model_.points;
+    Points& points = model_.state.points;
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < points.size(); ++i) {
         points.velocity[i] += 0.5 * time_step / points.mass[i] * points.force[i];
         points.position[i] += time_step * points.velocity[i];
     }
-    for (Obstacle& obstacle : model_.obstacles)
+    for (Obstacle& obstacle : model_.state.obstacles)
         obstacle.shift += time_step * obstacle.velocity;
 }
 
 void Dynamics::kick(double time_step)
 {
-    Points& points = model_.points;
+    Points& points = model_.state.points;
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < points.size(); ++i) {
         points.velocity[i] += 0.5 * time_step / points.mass[i] * points.force[i];
-        const double dilation = model_.volume_rate[i];
+        const double dilation = model_.result.volume_rate[i];
         points.jacobian[i] *= (1.0 + 0.5 * dilation) / (1.0 - 0.5 * dilation);
         points.volume[i] = points.initial_volume[i] * volume_ratio(points.jacobian[i], model_.body_of(i).porosity);
     }
@@ -104,13 +105,13 @@ void Dynamics::kick(double time_step)
 
 void Dynamics::update_ledger(double time_step)
 {
-    const Points& points = model_.points;
+    const Points& points = model_.state.points;
     const auto [kinetic, gravity, lent, stress] =
         ordered_sums<4>(points.size(), [&](std::size_t i, std::array<double, 4>& sum) {
             sum[0] += 0.5 * points.mass[i] * points.velocity[i].squaredNorm();
-            sum[1] -= points.mass[i] * model_.gravity.dot(points.position[i]);
+            sum[1] -= points.mass[i] * model_.state.gravity.dot(points.position[i]);
             sum[2] += points.force[i].squaredNorm() / points.mass[i];
-            sum[3] += model_.stress_work[i];
+            sum[3] += model_.result.stress_work[i];
         });
     EnergyLedger& ledger = state_.ledger;
     ledger.kinetic = kinetic;
@@ -130,7 +131,7 @@ void Dynamics::update_ledger(double time_step)
 
 LedgerPowers Dynamics::ledger_powers() const
 {
-    const Points& points = model_.points;
+    const Points& points = model_.state.points;
     const std::vector<Vector3>&friction = contact_.friction(), &damping = contact_.damping();
     const auto sums = ordered_sums<4>(points.size(), [&](std::size_t i, std::array<double, 4>& sum) {
         const Vector3 acceleration = points.force[i] / points.mass[i];
@@ -147,11 +148,11 @@ LedgerPowers Dynamics::ledger_powers() const
 
 void Dynamics::sum_forces(const StepOptions& options)
 {
-    Points& points = model_.points;
+    Points& points = model_.state.points;
     const std::size_t n = points.size();
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < n; ++i)
-        points.force[i] = model_.internal_force[i] + points.mass[i] * model_.gravity;
+        points.force[i] = model_.result.internal_force[i] + points.mass[i] * model_.state.gravity;
     buoyancy_power_ = add_buoyancy(model_, state_.buoyancy, points.force);
     using Approach = ContactForces::Approach;
     // Friction stops the slip of a contact within the step, also when damping has multiplied it.
@@ -160,7 +161,7 @@ void Dynamics::sum_forces(const StepOptions& options)
                            points.force);
     contact_.add_surface_friction(model_, stopping_time, points.force);
     held_power_ = hold_forces();
-    const double squared_gravity = model_.gravity.squaredNorm();
+    const double squared_gravity = model_.state.gravity.squaredNorm();
     const auto [unbalanced, weight] = ordered_sums<2>(n, [&](std::size_t i, std::array<double, 2>& sum) {
         sum[0] += points.force[i].squaredNorm();
         sum[1] += points.mass[i] * points.mass[i] * squared_gravity;
@@ -175,7 +176,7 @@ void Dynamics::sum_forces(const StepOptions& options)
 
 void Dynamics::damp_forces(double coefficient)
 {
-    Points& points = model_.points;
+    Points& points = model_.state.points;
     std::vector<Vector3>& last = state_.undamped_force;
     if (last.empty())
         last = points.force;
@@ -193,14 +194,14 @@ void Dynamics::damp_forces(double coefficient)
 double Dynamics::force_squared_per_mass() const
 {
     return ordered_sums<1>(model_.size(), [&](std::size_t i, std::array<double, 1>& sum) {
-        sum[0] += model_.points.force[i].squaredNorm() / model_.points.mass[i];
+        sum[0] += model_.state.points.force[i].squaredNorm() / model_.state.points.mass[i];
     })[0];
 }
 
 void Dynamics::hold_velocities()
 {
     for (const HeldDirection& held : held_) {
-        Vector3& velocity = model_.points.velocity[held.point];
+        Vector3& velocity = model_.state.points.velocity[held.point];
         velocity += (held.speed - velocity.dot(held.direction)) * held.direction;
     }
 }
@@ -209,7 +210,7 @@ double Dynamics::hold_forces()
 {
     double power = 0.0;
     for (const HeldDirection& held : held_) {
-        Vector3& force = model_.points.force[held.point];
+        Vector3& force = model_.state.points.force[held.point];
         const double along = force.dot(held.direction);
         force -= along * held.direction;
         power -= along * held.speed;
@@ -239,32 +240,32 @@ void Dynamics::book(const ArrivedEnergy& arrived)
 double Dynamics::kinetic_energy() const
 {
     return ordered_sums<1>(model_.size(), [&](std::size_t i, std::array<double, 1>& sum) {
-        sum[0] += 0.5 * model_.points.mass[i] * model_.points.velocity[i].squaredNorm();
+        sum[0] += 0.5 * model_.state.points.mass[i] * model_.state.points.velocity[i].squaredNorm();
     })[0];
 }
 
 double Dynamics::gravity_energy() const
 {
     return ordered_sums<1>(model_.size(), [&](std::size_t i, std::array<double, 1>& sum) {
-        sum[0] -= model_.points.mass[i] * model_.gravity.dot(model_.points.position[i]);
+        sum[0] -= model_.state.points.mass[i] * model_.state.gravity.dot(model_.state.points.position[i]);
     })[0];
 }
 
 double Dynamics::acceleration_scale() const
 {
     double squared_mass = 0.0;
-    for (const double m : model_.points.mass)
+    for (const double m : model_.state.points.mass)
         squared_mass += m * m;
     return squared_mass > 0.0 ? state_.force_scale / std::sqrt(squared_mass) : 0.0;
 }
 
 double Dynamics::mean_speed() const
 {
-    body_motion_.assign(model_.bodies.size(), {});
+    body_motion_.assign(model_.state.bodies.size(), {});
     for (std::size_t i = 0; i < model_.size(); ++i) {
-        BodyMotion& body = body_motion_[model_.points.body[i]];
-        body.mass += model_.points.mass[i];
-        body.twice_energy += model_.points.mass[i] * model_.points.velocity[i].squaredNorm();
+        BodyMotion& body = body_motion_[model_.state.points.body[i]];
+        body.mass += model_.state.points.mass[i];
+        body.twice_energy += model_.state.points.mass[i] * model_.state.points.velocity[i].squaredNorm();
     }
     double fastest = 0.0;
     for (const BodyMotion& body : body_motion_)

@@ -9,6 +9,7 @@
 #include "operator/force_state.hpp"
 #include "time/energy_ledger.hpp"
 #include "time/phases.hpp"
+#include "water/arrived_energy.hpp"
 
 #include <cstdint>
 #include <vector>

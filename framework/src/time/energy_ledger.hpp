@@ -9,12 +9,6 @@
 
 namespace periporo {
 
-/// What mass brings with it that comes to points where they are and with their velocity [J].
-struct ArrivedEnergy {
-    double kinetic = 0.0; ///< sum dm v^2/2
-    double gravity = 0.0; ///< -sum dm g.x
-};
-
 /// The power of a force with the velocities at the end of a step, and what the half kick of the net force there adds to
 /// it within a time dt/2.
 struct ForcePower {

@@ -4,7 +4,7 @@
 // Where the time of a run goes.
 #pragma once
 
-#include "operator/force_state.hpp"
+#include "model/operator_result.hpp"
 
 #include <array>
 #include <chrono>
@@ -13,12 +13,12 @@
 namespace periporo {
 
 enum class Phase : std::size_t {
-    refresh,       ///< families, sub-horizons, halos and the state of bonds anew
+    refresh,       ///< families, sub-horizons, accumulators and the states of bonds anew
     kinematics,    ///< operator: sums over families and velocity gradients
     material,      ///< operator: rotation of stress and the material
     force,         ///< operator: from stress to forces on points
     contact,       ///< contact laws
-    integration,   ///< motion of the points, energies, records of neighbours
+    integration,   ///< motion of the points, energies, values at the ends of bonds
     step_estimate, ///< largest frequency of the operator
     output         ///< results and checkpoints
 };
@@ -42,14 +42,14 @@ public:
     }
 
     /// Runs an evaluation of the operator; its time is divided by the samples that it took of its parts.
+    /// @param samples to which the evaluation adds
     template <class Work>
-    void time_operator(Model& model, Work&& work)
+    void time_operator(OperatorTimes& samples, Work&& work)
     {
-        model.operator_samples = {};
+        samples = {};
         const auto begin = std::chrono::steady_clock::now();
         work();
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        const OperatorSamples& samples = model.operator_samples;
         const double sampled = samples.kinematics + samples.material + samples.force;
         if (!(sampled > 0.0))
             return add(Phase::kinematics, seconds);

@@ -12,7 +12,7 @@ bool RestCriterion::follow(const Model& model, double time, double acceleration_
 {
     if (state_.position.empty()) {
         if (time >= rule_.from) {
-            state_.position = model.points.position;
+            state_.position = model.state.points.position;
             state_.begun = time;
         }
         return false;
@@ -27,8 +27,8 @@ WindowMotion RestCriterion::end_window(const Model& model, double time, double a
     struct Sums {
         double mass = 0.0, squared_mass = 0.0, velocity = 0.0, change = 0.0;
     };
-    std::vector<Sums> bodies(model.bodies.size()); // once a window
-    const Points& points = model.points;
+    std::vector<Sums> bodies(model.state.bodies.size()); // once a window
+    const Points& points = model.state.points;
     const double length = time - state_.begun;
     const bool first = state_.velocity.empty();
     state_.velocity.resize(points.size(), Vector3::Zero());

@@ -1,9 +1,10 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// The highest mode by the Arnoldi process, and the step that it allows.
 #include "time/stable_step.hpp"
 
-#include "time/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -60,23 +61,6 @@ bool normalize(const Points& points, Vectors& vector)
     return true;
 }
 
-/// M^-1 K u of the elastic tangent and what holds the points to the ground.
-void tangent(Model& model, const ForceState& force_state, std::span<const Eigen::Matrix3d> grounded,
-             const Vectors& displacement, Vectors& result)
-{
-    std::copy(displacement.begin(), displacement.end(), model.points.velocity.begin());
-    model.update_records();
-    force_state.evaluate(model, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < model.size(); ++i)
-        result[i] = -model.internal_force[i] / model.points.mass[i];
-    if (grounded.empty())
-        return;
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < model.size(); ++i)
-        result[i] += grounded[i] * displacement[i];
-}
-
 struct Ritz {
     double value = 0.0;
     Eigen::VectorXd vector; ///< of length 1, in the basis
@@ -94,8 +78,9 @@ Ritz highest_ritz(const Eigen::MatrixXd& projected)
 
 double FrequencyEstimate::update(Model& model, const ForceState& force_state, std::span<const Eigen::Matrix3d> grounded)
 {
-    const Points& points = model.points;
-    velocity_ = points.velocity;
+    const Points& points = model.state.points;
+    result_.resize(model.size());
+    result_.active.resize(model.neighbourhood.families.packs());
     Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(most_evaluations, most_evaluations);
     Ritz highest;
     begin_basis(points);
@@ -105,7 +90,7 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, st
             basis_.emplace_back();
         Vectors& image = basis(evaluations_);
         image.resize(model.size());
-        tangent(model, force_state, grounded, basis(column), image);
+        apply_tangent(model, force_state, grounded, basis(column), image);
         const double before = std::sqrt(mass_product(points, image, image));
         for (Eigen::Index row = 0; row <= column; ++row) {
             projected(row, column) = mass_product(points, basis(row), image);
@@ -118,8 +103,6 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, st
         if (evaluations_ < most_evaluations)
             projected(evaluations_, column) = left;
     }
-    model.points.velocity = velocity_;
-    model.update_records();
     if (evaluations_ == 0)
         return 0.0;
 
@@ -129,6 +112,24 @@ double FrequencyEstimate::update(Model& model, const ForceState& force_state, st
     normalize(points, mode_);
     basis_.resize(static_cast<std::size_t>(evaluations_) + 1); // a first search takes many more than a renewal
     return std::sqrt(std::max(highest.value, 0.0));
+}
+
+void FrequencyEstimate::apply_tangent(Model& model, const ForceState& force_state,
+                                      std::span<const Eigen::Matrix3d> grounded, const Vectors& displacement,
+                                      Vectors& acceleration)
+{
+    displaced_.gather(model.state.points, displacement, model.neighbourhood);
+    force_state.evaluate({model.state, model.neighbourhood, displaced_},
+                         {StressUpdate::tangent, MaterialResponse::elastic, 0.0}, model.bonds, model.workspace,
+                         result_);
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < model.size(); ++i)
+        acceleration[i] = -result_.internal_force[i] / model.state.points.mass[i];
+    if (grounded.empty())
+        return;
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < model.size(); ++i)
+        acceleration[i] += grounded[i] * displacement[i];
 }
 
 void FrequencyEstimate::begin_basis(const Points& points)
@@ -152,10 +153,11 @@ StableStep stable_step(Model& model, const ForceState& force_state, ContactForce
     result.wave_limit = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < model.size(); ++i) {
         const Material& material = *model.body_of(i).material;
-        const double density = model.points.mass[i] / model.points.volume[i];
+        const double density = model.state.points.mass[i] / model.state.points.volume[i];
         const double speed = std::sqrt((material.bulk_modulus() + 4.0 / 3.0 * material.shear_modulus()) / density);
-        result.wave_limit = std::min(result.wave_limit, 1.5 * model.spacing / speed);
+        result.wave_limit = std::min(result.wave_limit, 1.5 * model.state.spacing / speed);
     }
+    model.gather_ends();
     const std::vector<ContactBound>& bounds = contact.bounds(model);
     result.sharpest = contact.sharpest();
     const double resolved =
@@ -169,7 +171,7 @@ StableStep stable_step(Model& model, const ForceState& force_state, ContactForce
     const double together = std::pow(estimate.update(model, force_state, grounded), 2);
     if (damped)
         result.damping_rate = ordered_sums<1>(model.size(), [&](std::size_t i, std::array<double, 1>& sum) {
-            sum[0] += model.points.mass[i] * estimate.mode()[i].dot(bounds[i].damping * estimate.mode()[i]);
+            sum[0] += model.state.points.mass[i] * estimate.mode()[i].dot(bounds[i].damping * estimate.mode()[i]);
         })[0];
     const double squared = together - damping * result.damping_rate;
     result.frequency = std::sqrt(std::max(squared, 0.0));

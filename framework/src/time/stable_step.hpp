@@ -46,7 +46,7 @@ public:
     static constexpr double residual = 0.005;
     static constexpr int most_evaluations = 40;
 
-    /// Angular frequency [rad/s]. Velocities and records of the model are restored.
+    /// Angular frequency [rad/s]. Nothing of the model changes but its workspace.
     /// @param grounded stiffness of each point against the ground, over its mass, that is added to the operator [1/s2];
     /// empty: none
     double update(Model& model, const ForceState& force_state, std::span<const Eigen::Matrix3d> grounded = {});
@@ -62,6 +62,9 @@ public:
 
 private:
     using Vectors = std::vector<Vector3>;
+    /// Sets M^-1 K u of the elastic tangent and of what holds the points to the ground.
+    void apply_tangent(Model& model, const ForceState& force_state, std::span<const Eigen::Matrix3d> grounded,
+                       const Vectors& displacement, Vectors& acceleration);
     /// Last mode and scattered vector, as the first of the basis.
     void begin_basis(const Points& points);
     Vectors& basis(Eigen::Index number) { return basis_[static_cast<std::size_t>(number)]; }
@@ -70,7 +73,8 @@ private:
     int evaluations_ = 0;
     // their memory is kept from one time to the next, that of as many vectors as the last search took
     std::vector<Vectors> basis_;
-    Vectors velocity_;
+    BondEnds displaced_; ///< with displacements as velocities
+    OperatorResult result_;
 };
 
 /// step = min(safety * limit, 1.5 dx/c_p, resolution/omega of the sharpest contact alone). c_p = sqrt((K + 4G/3)/rho)

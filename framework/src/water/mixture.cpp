@@ -15,7 +15,7 @@ double mixture_density(const MaterialDescription& material, double saturation)
 
 double porosity_of(const Model& model, std::size_t point)
 {
-    const double ratio = model.points.volume[point] / model.points.initial_volume[point];
+    const double ratio = model.state.points.volume[point] / model.state.points.initial_volume[point];
     return std::max(0.0, 1.0 - (1.0 - model.body_of(point).porosity) / ratio);
 }
 

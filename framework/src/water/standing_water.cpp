@@ -4,7 +4,7 @@
 // The lift of standing water, with its work.
 #include "water/standing_water.hpp"
 
-#include "time/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 
 #include <array>
 #include <utility>
@@ -20,7 +20,7 @@ double add_buoyancy(const Model& model, std::vector<double>& buoyancy, std::vect
     return ordered_sums<1>(model.size(), [&](std::size_t i, std::array<double, 1>& power) {
         const double now = water.buoyancy_of(i);
         const double before = std::exchange(buoyancy[i], now);
-        power[0] += 0.5 * (before + now) * water.up().dot(model.points.velocity[i]);
+        power[0] += 0.5 * (before + now) * water.up().dot(model.state.points.velocity[i]);
         force[i] += now * water.up();
     })[0];
 }

@@ -20,13 +20,13 @@ namespace periporo {
 class StandingWater {
 public:
     explicit StandingWater(const Model& model)
-        : model_(model), gravity_(model.gravity.norm()),
-          up_(gravity_ > 0.0 ? Vector3(-model.gravity / gravity_) : Vector3::UnitZ())
+        : model_(model), gravity_(model.state.gravity.norm()),
+          up_(gravity_ > 0.0 ? Vector3(-model.state.gravity / gravity_) : Vector3::UnitZ())
     {
     }
 
     /// Does water stand around some body?
-    bool anywhere() const { return std::ranges::any_of(model_.bodies, &Body::has_standing_water); }
+    bool anywhere() const { return std::ranges::any_of(model_.state.bodies, &Body::has_standing_water); }
     const Vector3& up() const { return up_; }
     /// rho_w g [N/m3].
     double unit_weight() const { return water_density * gravity_; }
@@ -34,15 +34,15 @@ public:
     /// Height of a point above the surface of the water around its body [m]; infinite when none stands there.
     double height_of(std::size_t point) const
     {
-        return model_.points.position[point].dot(up_) - model_.body_of(point).water_level;
+        return model_.state.points.position[point].dot(up_) - model_.body_of(point).water_level;
     }
     /// The part under water of a cell one spacing high, whose middle is at `height` above the surface [-]. The lift of
     /// a point that sinks into the water grows evenly from nothing to the whole, as that of a cube of the lattice does.
-    double share_below(double height) const { return std::clamp(0.5 - height / model_.spacing, 0.0, 1.0); }
+    double share_below(double height) const { return std::clamp(0.5 - height / model_.state.spacing, 0.0, 1.0); }
     /// rho_w g V of the part under water [N].
     double buoyancy_of(std::size_t point) const
     {
-        return unit_weight() * model_.points.volume[point] * share_below(height_of(point));
+        return unit_weight() * model_.state.points.volume[point] * share_below(height_of(point));
     }
 
 private:

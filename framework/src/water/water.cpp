@@ -4,7 +4,7 @@
 // The course of pore pressure, saturation and mass.
 #include "water/water.hpp"
 
-#include "time/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 #include "water/pressure_field.hpp"
 #include "water/standing_water.hpp"
 
@@ -68,7 +68,7 @@ double Water::given_saturation(std::size_t body, const WaterDescription& water, 
 
 void Water::begin(Model& model)
 {
-    Points& points = model.points;
+    Points& points = model.state.points;
     const StandingWater standing(model);
     std::vector<std::unique_ptr<PressureField>> fields;
     std::vector<double> levels;
@@ -76,7 +76,7 @@ void Water::begin(Model& model)
         const BodyDescription& body = description_->bodies[b];
         fields.push_back(field_of(*description_, body.name, body.water));
         levels.push_back(level_of(body.water, standing.up()));
-        model.bodies[b].water_level = levels.back();
+        model.state.bodies[b].water_level = levels.back();
     }
     std::vector<double> pressure(model.size()), saturation(model.size()), soaked(model.size());
     for (std::size_t i = 0; i < model.size(); ++i) {
@@ -96,7 +96,7 @@ void Water::begin(Model& model)
 
 void Water::begin_stage(const Model& model, const StageDescription& stage)
 {
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     WaterCourse now = course_;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
         now.level_before[b] = now.level_after[b] = level(b);
@@ -118,7 +118,7 @@ void Water::begin_stage(const Model& model, const StageDescription& stage)
 
 void Water::begin_change(const Model& model, std::size_t body, const WaterDescription& water)
 {
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     const StandingWater standing(model);
     const auto field = field_of(*description_, description_->bodies[body].name, water);
     course_.level_after[body] = level_of(water, standing.up());
@@ -127,7 +127,7 @@ void Water::begin_change(const Model& model, std::size_t body, const WaterDescri
         if (points.body[i] != body)
             continue;
         course_.lowest[body] =
-            std::min(course_.lowest[body], points.position[i].dot(standing.up()) - 0.5 * model.spacing);
+            std::min(course_.lowest[body], points.position[i].dot(standing.up()) - 0.5 * model.state.spacing);
         // The change starts from the water that the point has, also where it took that from standing water.
         const double share = standing.share_below(standing.height_of(i));
         const double soaked = std::exchange(course_.soaked[i], share);
@@ -159,7 +159,7 @@ void Water::resume(Model& model, const StageDescription& stage)
 {
     set_durations(stage);
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-        model.bodies[b].water_level = level(b);
+        model.state.bodies[b].water_level = level(b);
 }
 
 double Water::BodyWater::done(double time) const
@@ -199,15 +199,15 @@ double Water::own_saturation(std::size_t point, std::size_t body, double porosit
 ArrivedEnergy Water::follow(Model& model, double time, double time_step)
 {
     const bool stands = StandingWater(model).anywhere();
-    if (settled_ && !(follows_porosity_ && model.wet) && !stands)
+    if (settled_ && !(follows_porosity_ && model.ends.wet()) && !stands)
         return {};
     const bool weighs = !settled_ || stands;
     settled_ = time >= longest_;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         course_.done[b] = bodies_[b].done(time);
-        model.bodies[b].water_level = level(b);
+        model.state.bodies[b].water_level = level(b);
     }
-    Points& points = model.points;
+    Points& points = model.state.points;
     const StandingWater standing(model);
     const auto [kinetic, gravity] = ordered_sums<2>(points.size(), [&](std::size_t i, std::array<double, 2>& sum) {
         const double share = standing.share_below(standing.height_of(i));
@@ -219,14 +219,14 @@ ArrivedEnergy Water::follow(Model& model, double time, double time_step)
         const double arrived = mass - std::exchange(points.mass[i], mass);
         sum[0] += 0.5 * arrived * points.velocity[i].squaredNorm();
         const Vector3 mid_velocity = points.velocity[i] + 0.5 * time_step / mass * points.force[i];
-        sum[1] -= arrived * model.gravity.dot(points.position[i] + 0.5 * time_step * mid_velocity);
+        sum[1] -= arrived * model.state.gravity.dot(points.position[i] + 0.5 * time_step * mid_velocity);
     });
     return {kinetic, gravity};
 }
 
 void Water::fill(Model& model, std::size_t point, const StandingWater& standing)
 {
-    Points& points = model.points;
+    Points& points = model.state.points;
     const std::size_t body = points.body[point];
     const double own =
         std::min(0.0, std::lerp(course_.pressure_before[point], course_.pressure_after[point], course_.done[body]));
@@ -244,7 +244,7 @@ void Water::fill(Model& model, std::size_t point, const StandingWater& standing)
 
 double Water::mass_of(const Model& model, std::size_t point) const
 {
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     const std::size_t body = points.body[point];
     const MaterialDescription& material = *bodies_[body].material;
     const double saturation = own_saturation(point, body, material.porosity);

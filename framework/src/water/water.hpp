@@ -14,7 +14,7 @@
 #include "model/model.hpp"
 #include "periporo/retention.hpp"
 #include "plugins/registry.hpp"
-#include "time/energy_ledger.hpp"
+#include "water/arrived_energy.hpp"
 #include "water/mixture.hpp"
 
 #include <cstddef>

@@ -23,7 +23,7 @@ struct Grains {
         : model(specimens::from_positions(places, spacing)), contact({{short_range(), {0, 0}}})
     {
         find_first_families(model,
-                            *make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon)));
+                            *make_force_state("energy_conjugate", Influence::by_name("constant", model.state.horizon)));
     }
 
     static std::vector<Vector3> positions(const std::vector<double>& places)
@@ -52,9 +52,9 @@ struct Grains {
     }
     double energy(const std::vector<Vector3>& places, const std::vector<std::uint8_t>& free)
     {
-        model.points.position = places;
-        model.free_grain = free;
-        model.update_records();
+        model.state.points.position = places;
+        model.result.detached = free;
+        model.gather_ends();
         std::vector<Vector3> force(model.size(), Vector3::Zero());
         contact.add_reactions(model, 1e-5, ContactForces::Approach::none, force);
         return contact.energy();
@@ -111,8 +111,8 @@ TEST_CASE("the bounds of points cover the contacts of loose and of crowded grain
         grains.energy(places, all_free);
 
         const auto law = Grains::short_range();
-        const double v = grains.model.points.volume[0];
-        const double m = grains.model.points.mass[0];
+        const double v = grains.model.state.points.volume[0];
+        const double m = grains.model.state.points.mass[0];
         const ContactPair pair{0.0, 0.0, v, v, m, m};
         ContactResponse response;
         law->evaluate({&pair, 1}, {&response, 1});

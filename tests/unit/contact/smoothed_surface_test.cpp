@@ -25,8 +25,8 @@ struct Ground {
     explicit Ground(const Eigen::Isometry3d& frame = Eigen::Isometry3d::Identity(), double jitter = 0.0)
         : frame(frame), model(from_positions(positions(frame, jitter), dx))
     {
-        model.bodies.push_back(model.bodies.front());
-        model.points.body.back() = 1;
+        model.state.bodies.push_back(model.state.bodies.front());
+        model.state.points.body.back() = 1;
         find();
     }
     static std::vector<Vector3> positions(const Eigen::Isometry3d& frame, double jitter)
@@ -40,19 +40,19 @@ struct Ground {
     void find()
     {
         find_first_families(model,
-                            *make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon)));
-        model.update_records();
+                            *make_force_state("energy_conjugate", Influence::by_name("constant", model.state.horizon)));
+        model.gather_ends();
     }
     /// Puts the grain to a place in the frame of the ground.
     void put(const Vector3& place)
     {
-        model.points.position.back() = frame * place;
-        model.update_records();
+        model.state.points.position.back() = frame * place;
+        model.gather_ends();
     }
     /// Puts a grain to each place, in the frame of the ground, instead of the one.
     void put_all(const std::vector<Vector3>& places)
     {
-        Points& points = model.points;
+        Points& points = model.state.points;
         const std::size_t first = grain();
         points.resize(first + places.size());
         for (std::size_t g = 0; g < places.size(); ++g) {
@@ -190,7 +190,8 @@ TEST_CASE("forces on an uneven surface and on its rim have no resultant and no m
         double size = 0.0;
         for (std::size_t i = 0; i < force.size(); ++i) {
             sum += force[i];
-            moment += (ground.model.points.position[i] - ground.model.points.position.back()).cross(force[i]);
+            moment +=
+                (ground.model.state.points.position[i] - ground.model.state.points.position.back()).cross(force[i]);
             size += force[i].norm();
         }
         CAPTURE(place.transpose());
@@ -222,18 +223,18 @@ TEST_CASE("the force on every point is minus the derivative of the stored energy
                 continue;
             for (Eigen::Index c = 0; c < 3; ++c) {
                 const auto energy_at = [&](double way) {
-                    const Vector3 there = ground.model.points.position[i];
-                    ground.model.points.position[i][c] += way;
-                    ground.model.update_records();
+                    const Vector3 there = ground.model.state.points.position[i];
+                    ground.model.state.points.position[i][c] += way;
+                    ground.model.gather_ends();
                     reactions(contact, ground.model);
-                    ground.model.points.position[i] = there;
+                    ground.model.state.points.position[i] = there;
                     return contact.energy();
                 };
                 const double slope = (energy_at(shift) - energy_at(-shift)) / (2.0 * shift);
                 CHECK(std::abs(force[i][c] + slope) < 1e-6 * largest);
             }
         }
-        ground.model.update_records();
+        ground.model.gather_ends();
     }
 }
 
@@ -258,7 +259,7 @@ TEST_CASE("at a symmetry plane the half of a ground acts as the whole")
     // the grain and its mirror image stand on the whole ground
     const Vector3 place(0.3 * dx, 0.1 * dx, 0.2 * dx);
     whole.put_all({place, {-place.x(), place.y(), place.z()}});
-    const Points& points = whole.model.points;
+    const Points& points = whole.model.state.points;
     const std::size_t last = points.size() - 1;
     ContactForces on_whole = on_surface(0.0);
     on_whole.find_candidates(whole.model, 0.1 * dx);
@@ -272,11 +273,12 @@ TEST_CASE("at a symmetry plane the half of a ground acts as the whole")
             numbers.push_back(i);
         }
     Model half = from_positions(kept, dx);
-    half.bodies.push_back(half.bodies.front());
-    half.points.body.back() = 1;
-    half.isometries.set_generators({Isometry::reflection(0, 0.0)});
-    find_first_families(half, *make_force_state("energy_conjugate", Influence::by_name("constant", half.horizon)));
-    half.update_records();
+    half.state.bodies.push_back(half.state.bodies.front());
+    half.state.points.body.back() = 1;
+    half.neighbourhood.isometries.set_generators({Isometry::reflection(0, 0.0)});
+    find_first_families(half,
+                        *make_force_state("energy_conjugate", Influence::by_name("constant", half.state.horizon)));
+    half.gather_ends();
     ContactForces on_half = on_surface(0.0);
     on_half.find_candidates(half, 0.1 * dx);
     const std::vector<Vector3> found = reactions(on_half, half);
@@ -291,11 +293,11 @@ TEST_CASE("friction stops a slow grain within a step, never throws it back, and 
     Ground ground;
     ground.put({0.2 * dx, 0.3 * dx, 0.2 * dx});
     const double step = 1e-4;
-    const double mass = ground.model.points.mass[ground.grain()];
+    const double mass = ground.model.state.points.mass[ground.grain()];
     const double grip = 0.4 * 500.0 * 0.3 * dx; // mu F_n
     for (const double part : {0.1, 10.0}) {     // of the speed that friction stops in a step
-        ground.model.points.velocity.back() = {part * grip * step / mass, 0.0, 0.0};
-        ground.model.update_records();
+        ground.model.state.points.velocity.back() = {part * grip * step / mass, 0.0, 0.0};
+        ground.model.gather_ends();
         ContactForces contact = on_surface(0.4);
         contact.find_candidates(ground.model, 0.1 * dx);
         const std::vector<Vector3> force = reactions(contact, ground.model, step);
@@ -311,7 +313,7 @@ TEST_CASE("friction stops a slow grain within a step, never throws it back, and 
         for (std::size_t m = 0; m < support.records.size(); ++m)
             surface_change += support.weights[m] * step / mass * force[support.records[m]];
         CHECK(sum.norm() < 1e-14 * force[ground.grain()].norm());
-        const double before = ground.model.points.velocity.back().x();
+        const double before = ground.model.state.points.velocity.back().x();
         const double after = before - step * friction / mass - surface_change.x();
         if (part < 1.0) {
             CHECK(after >= -1e-12 * before);
@@ -366,9 +368,9 @@ TEST_CASE("the bounds of points cover a crowd on the surface, and not by much")
         // What each dashpot is in this crowd, from the force on its grain when all grains sink.
         const double speed = 1e-6;
         for (Eigen::Index s = 0; s < count; ++s)
-            ground.model.points.velocity[grains[static_cast<std::size_t>(s)]] =
+            ground.model.state.points.velocity[grains[static_cast<std::size_t>(s)]] =
                 -speed * contacts.block<3, 1>(3 * grains[static_cast<std::size_t>(s)], s);
-        ground.model.update_records();
+        ground.model.gather_ends();
         std::vector<Vector3> force(ground.model.size(), Vector3::Zero());
         contact.add_reactions(ground.model, 1e-5, ContactForces::Approach::real, force);
         Eigen::VectorXd dashpots(count);
@@ -381,7 +383,7 @@ TEST_CASE("the bounds of points cover a crowd on the surface, and not by much")
 
         // With K = sum k_s b_s b_s^T and blocks D, the largest eigenvalue of D^-1 K, sought as that of
         // sqrt(k_s k_t) b_s^T D^-1 b_t.
-        const double mass = ground.model.points.mass[0];
+        const double mass = ground.model.state.points.mass[0];
         const auto largest = [](const Eigen::MatrixXd& matrix) {
             return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().maxCoeff();
         };

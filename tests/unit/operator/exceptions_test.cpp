@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What is thrown within parallel loops arrives outside of them, the same for any number of threads.
-#include "model/body_fill.hpp"
+#include "assembly/body_fill.hpp"
 #include "operator/block_loop.hpp"
 #include "support/specimens.hpp"
 
@@ -67,12 +67,12 @@ void with_threads(const std::function<void()>& check)
 TEST_CASE("of the blocks of an evaluation that throw, the first one is heard")
 {
     Model model = block();
-    const auto force_state = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    const auto force_state = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force_state);
-    REQUIRE(model.halos.blocks() > 5);
+    REQUIRE(model.neighbourhood.blocks.blocks() > 5);
     with_threads([&] {
-        CHECK_THROWS_WITH(for_every_block(model,
-                                          [](std::size_t n, OperatorSamples&) {
+        CHECK_THROWS_WITH(for_every_block(model.neighbourhood.blocks, model.result.times,
+                                          [](std::size_t n, OperatorTimes&) {
                                               if (n >= 3)
                                                   throw std::runtime_error(std::to_string(n));
                                           }),
@@ -86,8 +86,8 @@ TEST_CASE("a law that throws, and a modulus that does, reach the caller from eve
         CAPTURE(name);
         Model model = block();
         const auto law = std::make_shared<Thrower>(Parameters{});
-        model.bodies[0].material = law;
-        const auto force_state = make_force_state(name, Influence::by_name("linear", model.horizon));
+        model.state.bodies[0].material = law;
+        const auto force_state = make_force_state(name, Influence::by_name("linear", model.state.horizon));
         find_first_families(model, *force_state);
         with_threads([&] {
             law->modulus_throws = false;
@@ -112,8 +112,9 @@ TEST_CASE("a geometry that throws while points are moved in it reaches the calle
 TEST_CASE("a lack of memory in a parallel loop stays a lack of memory")
 {
     Model model = block();
-    const auto force_state = make_force_state("bond_projection", Influence::by_name("linear", model.horizon));
+    const auto force_state = make_force_state("bond_projection", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force_state);
-    CHECK_THROWS_AS(for_every_block(model, [](std::size_t, OperatorSamples&) { throw std::bad_alloc(); }),
+    CHECK_THROWS_AS(for_every_block(model.neighbourhood.blocks, model.result.times,
+                                    [](std::size_t, OperatorTimes&) { throw std::bad_alloc(); }),
                     std::bad_alloc);
 }

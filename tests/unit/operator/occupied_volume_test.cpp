@@ -45,7 +45,7 @@ std::unique_ptr<ForceState> default_force()
 Model evaluated(const std::vector<Vector3>& positions, const ForceState& force)
 {
     Model model = from_positions(positions, dx);
-    model.bodies[0].porosity = porosity;
+    model.state.bodies[0].porosity = porosity;
     find_first_families(model, force);
     force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
     return model;
@@ -54,7 +54,7 @@ Model evaluated(const std::vector<Vector3>& positions, const ForceState& force)
 /// Moves the points and finds families anew.
 void move_to(Model& model, const ForceState& force, const std::vector<Vector3>& positions)
 {
-    model.points.position = positions;
+    model.state.points.position = positions;
     refresh_families(model, force);
     force.evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
 }
@@ -129,14 +129,14 @@ TEST_CASE("J keeps its bits where no neighbour came or went, however wrong it is
     std::mt19937 generator(3);
     std::uniform_real_distribution<double> value(0.8, 1.2);
     for (std::size_t i = 0; i < model.size(); ++i)
-        model.points.volume[i] *= model.points.jacobian[i] = value(generator);
-    const std::vector<double> jacobian = model.points.jacobian, volume = model.points.volume;
+        model.state.points.volume[i] *= model.state.points.jacobian[i] = value(generator);
+    const std::vector<double> jacobian = model.state.points.jacobian, volume = model.state.points.volume;
     // The horizon has room for a stretch of 0.5 per cent before a neighbour leaves, for 5 before one enters.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3(0.3, 1.0, 0.2).normalized()).toRotationMatrix();
     for (const Eigen::Matrix3d& f : {Eigen::Matrix3d(turn), Eigen::Matrix3d(1.004 * turn), scaled(0.99)}) {
         move_to(model, *course.force, mapped(course.start, f));
-        CHECK(model.points.jacobian == jacobian);
-        CHECK(model.points.volume == volume);
+        CHECK(model.state.points.jacobian == jacobian);
+        CHECK(model.state.points.volume == volume);
     }
 }
 
@@ -150,17 +150,17 @@ TEST_CASE("in affine deformation through many refreshes J stays at det F")
         std::size_t exchanges = 0;
         for (int step = 1; step <= 60; ++step) {
             const double next = std::pow(last, step / 60.0);
-            for (double& j : model.points.jacobian) // as the exact gradient advances it
+            for (double& j : model.state.points.jacobian) // as the exact gradient advances it
                 j *= next / ratio;
             ratio = next;
-            const std::size_t bonds = model.families.bonds();
+            const std::size_t bonds = model.neighbourhood.families.bonds();
             move_to(model, *course.force, mapped(course.start, scaled(ratio) * sheared(0.005 * step)));
-            exchanges += model.families.bonds() != bonds ? 1 : 0;
+            exchanges += model.neighbourhood.families.bonds() != bonds ? 1 : 0;
         }
         REQUIRE(exchanges > 2);
         Deviations inside, outside;
         for (std::size_t i = 0; i < model.size(); ++i)
-            (course.support(i) > 0.97 ? inside : outside).add(std::log(model.points.jacobian[i] / last));
+            (course.support(i) > 0.97 ? inside : outside).add(std::log(model.state.points.jacobian[i] / last));
         // The correction sees what lies beyond the uncertainty of the measure, and inside nothing does.
         CHECK(inside.largest < 0.015);
         CHECK(std::abs(outside.mean()) < 0.03);
@@ -185,14 +185,14 @@ TEST_CASE("J of a cloud that is mixed comes back to the occupied volume")
         Course course;
         Model& model = course.model;
         for (std::size_t i = 0; i < model.size(); ++i)
-            model.points.volume[i] *= model.points.jacobian[i] = wrong;
-        model.update_records();
+            model.state.points.volume[i] *= model.state.points.jacobian[i] = wrong;
+        model.gather_ends();
         for (int step = 1; step <= 40; ++step)
             move_to(model, *course.force, mixed(course.start, step));
         Deviations inside;
         for (std::size_t i = 0; i < model.size(); ++i) {
-            const double j = model.points.jacobian[i];
-            CHECK(model.points.volume[i] == model.points.initial_volume[i] * volume_ratio(j, porosity));
+            const double j = model.state.points.jacobian[i];
+            CHECK(model.state.points.volume[i] == model.state.points.initial_volume[i] * volume_ratio(j, porosity));
             if (course.support(i) > 0.97)
                 inside.add(std::log(j));
         }
@@ -214,19 +214,19 @@ TEST_CASE("the correction touches neither stress nor motion")
         set_velocity(*model, [](const Vector3& x) { return Vector3(x.z(), 0.1, -x.x()); });
     }
     // J is right in one and wrong in the other. The shares follow from the volumes before the refresh, so these agree.
-    for (double& j : with.model.points.jacobian)
+    for (double& j : with.model.state.points.jacobian)
         j = 1.15;
-    const std::vector<Vector3> velocity = with.model.points.velocity;
+    const std::vector<Vector3> velocity = with.model.state.points.velocity;
     for (Course* course : {&with, &without}) {
-        course->model.points.position = mixed(course->start, 1);
+        course->model.state.points.position = mixed(course->start, 1);
         refresh_families(course->model, *course->force);
     }
-    REQUIRE(with.model.points.volume != without.model.points.volume);
-    CHECK(with.model.points.position == without.model.points.position);
-    CHECK(with.model.points.velocity == velocity);
-    CHECK(with.model.point_state == without.model.point_state);
+    REQUIRE(with.model.state.points.volume != without.model.state.points.volume);
+    CHECK(with.model.state.points.position == without.model.state.points.position);
+    CHECK(with.model.state.points.velocity == velocity);
+    CHECK(with.model.state.point_states.values == without.model.state.point_states.values);
     for (std::size_t i = 0; i < with.model.size(); ++i)
-        for (std::size_t b = 0; b < with.model.families[i].count; ++b)
+        for (std::size_t b = 0; b < with.model.neighbourhood.families[i].count; ++b)
             for (std::size_t c = 0; c < 6; ++c)
                 REQUIRE(bond_value(with.model, i, b, c) == bond_value(without.model, i, b, c));
 }
@@ -238,13 +238,13 @@ TEST_CASE("J has the same bits for any number of threads")
     for (const int count : {1, 2, 5}) {
         omp_set_num_threads(count);
         Course course;
-        for (double& j : course.model.points.jacobian)
+        for (double& j : course.model.state.points.jacobian)
             j = 1.1;
         for (int step = 1; step <= 4; ++step)
             move_to(course.model, *course.force, mixed(course.start, step));
         if (first.empty())
-            first = course.model.points.jacobian;
-        CHECK(course.model.points.jacobian == first);
+            first = course.model.state.points.jacobian;
+        CHECK(course.model.state.points.jacobian == first);
     }
     omp_set_num_threads(threads);
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Rows of one bond to packs over bonds, and back.
-#include "model/aligned.hpp"
 #include "operator/transpose.hpp"
+#include "state/aligned.hpp"
 
 #include <doctest/doctest.h>
 

@@ -61,7 +61,7 @@ TEST_CASE("the quickstart is 10 x 10 x 12 points that weigh rho_s (1 - phi) time
     const BuiltModel model = built(quickstart());
     CHECK(model.model.size() == 1200);
     double mass = 0.0;
-    for (const double m : model.model.points.mass)
+    for (const double m : model.model.state.points.mass)
         mass += m;
     CHECK(mass == doctest::Approx(2200.0 * 0.8 * 0.1 * 0.1 * 0.12).epsilon(1e-12));
 }
@@ -69,7 +69,7 @@ TEST_CASE("the quickstart is 10 x 10 x 12 points that weigh rho_s (1 - phi) time
 TEST_CASE("water in the pores counts in the mass: rho = rho_s (1 - phi) + S_r phi rho_w")
 {
     const BuiltModel model = built(quickstart(wet("0.5")));
-    const Points& points = model.model.points;
+    const Points& points = model.model.state.points;
     CHECK(points.mass[0] / points.volume[0] == doctest::Approx(2200.0 * 0.8 + 0.5 * 0.2 * 1000.0).epsilon(1e-12));
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("a spinning body has v = v0 + omega x (x - centre of mass)")
 {
     const BuiltModel model = built(
         quickstart({"body.column.velocity=[\"1 m/s\", 0, 0]", "body.column.angular_velocity=[0, 0, \"3 rad/s\"]"}));
-    const Points& points = model.model.points;
+    const Points& points = model.model.state.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vector3 expected =
             Vector3(1, 0, 0) + Vector3(0, 0, 3).cross(points.position[i] - Vector3(0.05, 0.05, 0.06));
@@ -91,7 +91,7 @@ TEST_CASE("a deforming body has v = D (x - centre of mass)")
         built(quickstart({"body.column.strain_rate=[\"1 s^-1\", 0, \"-2 s^-1\", \"0.5 s^-1\", 0, \"3 s^-1\"]"}));
     Eigen::Matrix3d rate;
     rate << 1.0, 0.5, 3.0, 0.5, 0.0, 0.0, 3.0, 0.0, -2.0;
-    const Points& points = model.model.points;
+    const Points& points = model.model.state.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vector3 expected = rate * (points.position[i] - Vector3(0.05, 0.05, 0.06));
         REQUIRE((points.velocity[i] - expected).norm() < 1e-14); // round-off of 0.3 m/s
@@ -110,7 +110,8 @@ TEST_CASE("a body behind a symmetry plane is cut, and the remark says so")
 TEST_CASE("every point is in the model once, whatever the order along the curve")
 {
     const BuiltModel model = built(quickstart());
-    CHECK(std::set<std::int64_t>(model.model.points.id.begin(), model.model.points.id.end()).size() == 1200);
+    CHECK(std::set<std::int64_t>(model.model.state.points.id.begin(), model.model.state.points.id.end()).size() ==
+          1200);
 }
 
 TEST_CASE("geostatic stress of a bond is that at the depth of its middle, with K0 across, minus the pore part")
@@ -119,15 +120,15 @@ TEST_CASE("geostatic stress of a bond is that at the depth of its middle, with K
     const CaseDescription description = quickstart(wet("0.02"));
     BuiltModel made = built(description);
     Model& model = made.model;
-    model.isometries.set_generators(image_generators(description, description.stages[0]));
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    model.neighbourhood.isometries.set_generators(image_generators(description, description.stages[0]));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force);
     set_initial_stress(model, *force, description);
-    const double density = model.points.mass[0] / model.points.volume[0];
+    const double density = model.state.points.mass[0] / model.state.points.volume[0];
     for (const std::size_t i : {std::size_t{0}, std::size_t{600}, std::size_t{1199}})
-        for (std::size_t b = 0; b < model.families[i].count; ++b) {
-            const std::uint32_t j = model.families[i].neighbours[b];
-            const double z = 0.5 * (model.points.position[i].z() + model.records[j].position[2]);
+        for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b) {
+            const std::uint32_t j = model.neighbourhood.families[i].neighbours[b];
+            const double z = 0.5 * (model.state.points.position[i].z() + model.ends[j].position[2]);
             const double vertical = -density * 9.81 * (0.12 - z) - saturation * suction;
             CHECK(specimens::bond_value(model, i, b, 2) == doctest::Approx(vertical).epsilon(1e-12));
             CHECK(specimens::bond_value(model, i, b, 0) == doctest::Approx(k0 * vertical).epsilon(1e-12));
@@ -143,17 +144,17 @@ TEST_CASE("geostatic stress across a water table is the weight less the buoyancy
                     "body.column.water.saturation=0.3"});
     BuiltModel made = built(description);
     Model& model = made.model;
-    model.isometries.set_generators(image_generators(description, description.stages[0]));
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    model.neighbourhood.isometries.set_generators(image_generators(description, description.stages[0]));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force);
     set_initial_stress(model, *force, description);
     const double moist = 2200.0 * 0.8 + 0.3 * 0.2 * 1000.0, in_water = (2200.0 - 1000.0) * 0.8;
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     for (std::size_t i = 0; i < model.size(); ++i)
-        for (std::size_t b = 0; b < model.families[i].count; ++b) {
-            const std::uint32_t j = model.families[i].neighbours[b];
-            const std::uint32_t p = model.families.parent(j);
-            const double z = 0.5 * (points.position[i].z() + model.records[j].position[2]);
+        for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b) {
+            const std::uint32_t j = model.neighbourhood.families[i].neighbours[b];
+            const std::uint32_t p = model.neighbourhood.families.parent(j);
+            const double z = 0.5 * (points.position[i].z() + model.ends[j].position[2]);
             const double above = top - std::max(z, level), below = std::max(0.0, level - z);
             const double pull =
                 0.25 * (points.suction(i) + points.suction(p)) * (points.saturation[i] + points.saturation[p]);
@@ -170,7 +171,7 @@ TEST_CASE("cylindrical rollers hold the radial direction of the outer ring only"
         held_directions(made.model, description, made.held_regions, description.stages[0]);
     CHECK(!held.empty());
     for (const HeldDirection& h : held) {
-        const Vector3& x = made.model.points.position[h.point];
+        const Vector3& x = made.model.state.points.position[h.point];
         CHECK(std::hypot(x.x(), x.y()) > 0.09);
         CHECK(h.direction.dot(Vector3(x.x(), x.y(), 0.0).normalized()) == doctest::Approx(1.0));
     }
@@ -187,7 +188,7 @@ TEST_CASE("a fixed region holds all directions of the points that begin below it
         held_directions(made.model, description, made.held_regions, description.stages[0]);
     std::map<std::uint32_t, Vector3> sums;
     for (const HeldDirection& h : held) {
-        CHECK(made.model.points.position[h.point].z() < 0.02);
+        CHECK(made.model.state.points.position[h.point].z() < 0.02);
         sums.emplace(h.point, Vector3::Zero()).first->second += h.direction;
     }
     CHECK(sums.size() == 200);
@@ -219,7 +220,7 @@ stages = ["collapse"]
         held_directions(made.model, description, made.held_regions, description.stages[0]);
     CHECK(first.size() == 200);
     for (const HeldDirection& held : first) {
-        const double z = made.model.points.position[held.point].z();
+        const double z = made.model.state.points.position[held.point].z();
         CHECK((z > 0.01 && z < 0.03));
         CHECK(held.direction == Vector3::UnitZ());
         CHECK(held.speed == 0.0);
@@ -228,7 +229,7 @@ stages = ["collapse"]
         held_directions(made.model, description, made.held_regions, description.stages[1]);
     CHECK(second.size() == 3 * 5 * 5 * 2);
     for (const HeldDirection& held : second) {
-        const Vector3& x = made.model.points.position[held.point];
+        const Vector3& x = made.model.state.points.position[held.point];
         CHECK((x.x() < 0.05 && x.y() < 0.05 && x.z() < 0.02));
         CHECK(held.speed == (held.direction == Vector3::UnitY() ? 3e-3 : 0.0));
     }
@@ -265,18 +266,18 @@ modulus = "1 MPa"
 friction = 0
 )");
     BuiltModel made = built(description);
-    REQUIRE(made.model.obstacles.size() == 1);
+    REQUIRE(made.model.state.obstacles.size() == 1);
     Vector3 normal;
-    CHECK(made.model.obstacles[0].distance({0.5, 0.5, 3e-3}, normal) ==
+    CHECK(made.model.state.obstacles[0].distance({0.5, 0.5, 3e-3}, normal) ==
           doctest::Approx(3e-3).epsilon(1e-12).scale(0.0));
     CHECK(*made.contacts[0].obstacle == 0);
     CHECK(made.contacts[0].law->cutoff() == doctest::Approx(5e-3).epsilon(1e-12).scale(0.0)); // half a spacing
     set_obstacles(made.model, description, description.stages[0]);
-    CHECK_FALSE(made.model.obstacles[0].present);
-    CHECK(made.model.obstacles[0].velocity == Vector3::Zero());
+    CHECK_FALSE(made.model.state.obstacles[0].present);
+    CHECK(made.model.state.obstacles[0].velocity == Vector3::Zero());
     set_obstacles(made.model, description, description.stages[1]);
-    CHECK(made.model.obstacles[0].present);
-    CHECK(made.model.obstacles[0].velocity == Vector3::UnitZ());
+    CHECK(made.model.state.obstacles[0].present);
+    CHECK(made.model.state.obstacles[0].velocity == Vector3::UnitZ());
 }
 
 TEST_CASE("the substrate is the ground, and the column above it makes front and height of the history")
@@ -287,9 +288,9 @@ TEST_CASE("the substrate is the ground, and the column above it makes front and 
                   {{}, {PERIPORO_BUILD_DIR "/lib/periporo"}}, registry);
     BuiltModel made = built(description);
     Model& model = made.model;
-    for (const Body& body : model.bodies)
+    for (const Body& body : model.state.bodies)
         CHECK(body.ground == (body.name == "substrate"));
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     ContactForces contact({});
     const Dynamics dynamics(model, *force, contact, {});
     const std::vector<HistoryColumn> columns = history_columns(model);
@@ -300,7 +301,7 @@ TEST_CASE("the substrate is the ground, and the column above it makes front and 
     };
     CHECK(value("front") == doctest::Approx(0.095 * std::sqrt(2.0))); // the corner of the column
     CHECK(value("height") == doctest::Approx(0.12));
-    for (Body& body : model.bodies)
+    for (Body& body : model.state.bodies)
         body.ground = true;
     CHECK(value("front") > 0.2); // that of the substrate
 }
@@ -369,16 +370,16 @@ struct Memory : specimens::Hooke {
 TEST_CASE("the geostatic stage leaves variables that are reset on release at their initial value, and no others")
 {
     Model model = specimens::from_positions(specimens::lattice(3, 3, 3, 0.1), 0.1);
-    model.bodies[0].material = std::make_shared<LawMaterial<Memory>>(Parameters{});
+    model.state.bodies[0].material = std::make_shared<LawMaterial<Memory>>(Parameters{});
     model.allocate();
-    const auto force_state = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    const auto force_state = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force_state);
     for (std::size_t i = 0; i < model.size(); ++i)
-        for (std::size_t b = 0; b < model.families[i].count; ++b)
+        for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b)
             specimens::bond_value(model, i, b, 6) = specimens::bond_value(model, i, b, 7) = 3.0;
     initialize_materials(model, *force_state);
     for (std::size_t i = 0; i < model.size(); ++i)
-        for (std::size_t b = 0; b < model.families[i].count; ++b) {
+        for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b) {
             CHECK(specimens::bond_value(model, i, b, 6) == 0.25);
             CHECK(specimens::bond_value(model, i, b, 7) == 3.0);
         }

@@ -44,7 +44,7 @@ CaseDescription with_limit(double limit)
 Model resting_block()
 {
     Model model = specimens::from_positions(specimens::lattice(3, 3, 3, 0.01), 0.01);
-    model.gravity = {0.0, 0.0, -9.81};
+    model.state.gravity = {0.0, 0.0, -9.81};
     return model;
 }
 
@@ -107,10 +107,10 @@ TEST_CASE("a body that has hardly begun to move is not held against nothing")
     const Model model = resting_block();
     const double weight = 27.0 * specimens::density * 1e-6 * 9.81;
     EnergyLedger ledger;
-    ledger.kinetic = 1e-5 * weight * model.spacing; // round-off of a start, no motion
+    ledger.kinetic = 1e-5 * weight * model.state.spacing; // round-off of a start, no motion
     CHECK(energy_error_beyond_limit(model, with_limit(0.1), ledger, 0.0).empty());
     CHECK(energy_of_motion_from_nowhere(model, with_limit(0.1), ledger, 0.0).empty());
-    ledger.kinetic = 0.1 * weight * model.spacing;
+    ledger.kinetic = 0.1 * weight * model.state.spacing;
     CHECK_FALSE(energy_error_beyond_limit(model, with_limit(0.1), ledger, 0.0).empty());
     CHECK_FALSE(energy_of_motion_from_nowhere(model, with_limit(0.1), ledger, 0.0).empty());
 }
@@ -118,7 +118,7 @@ TEST_CASE("a body that has hardly begun to move is not held against nothing")
 TEST_CASE("motion that nothing gave is found, also where much was turned over, and names the fastest point")
 {
     Model model = resting_block();
-    model.points.velocity[7] = {0.0, 30.0, 0.0};
+    model.state.points.velocity[7] = {0.0, 30.0, 0.0};
     EnergyLedger ledger;
     ledger.gravity = -1.0;
     ledger.friction = 100.0;
@@ -151,9 +151,9 @@ TEST_CASE("while a body settles no point moves ten times faster than a fall over
     Model model = resting_block();
     // lower to upper corner 0.02 sqrt(3) m, and a spacing
     const double fall = std::sqrt(2.0 * 9.81 * (0.02 * std::sqrt(3.0) + 0.01));
-    model.points.velocity[3].z() = 9.9 * fall;
+    model.state.points.velocity[3].z() = 9.9 * fall;
     CHECK(faster_than_driven(model, {}, 9.81).empty());
-    model.points.velocity[3].z() = 10.1 * fall;
+    model.state.points.velocity[3].z() = 10.1 * fall;
     CHECK(contains(faster_than_driven(model, {}, 9.81), "point 3 of body 'body'"));
     CaseDescription driven;
     driven.held_regions.emplace_back().velocity = {2.0 * fall, 0.0, 0.0};
@@ -164,11 +164,11 @@ TEST_CASE("a point that is not finite, or far away, is named")
 {
     Model model = resting_block();
     CHECK(lost_point(model).empty());
-    model.points.velocity[5].x() = std::numeric_limits<double>::quiet_NaN();
+    model.state.points.velocity[5].x() = std::numeric_limits<double>::quiet_NaN();
     CHECK(contains(lost_point(model), "point 5 of body 'body'"));
     CHECK(contains(lost_point(model), "is not finite"));
-    model.points.velocity[5].x() = 0.0;
-    model.points.position[2].x() += 1001.0 * model.horizon;
+    model.state.points.velocity[5].x() = 0.0;
+    model.state.points.position[2].x() += 1001.0 * model.state.horizon;
     CHECK(contains(lost_point(model), "point 2 of body 'body'"));
     CHECK(contains(lost_point(model), "was lost"));
 }

@@ -53,9 +53,9 @@ TEST_CASE("points that others hide on all six sides are not drawn")
     CHECK(visible_points(sheet).size() == 25);
     // what lies inside is seen where another body begins
     Model two = specimens::from_positions(specimens::lattice(3, 3, 6, 0.01), 0.01);
-    two.bodies.push_back(two.bodies.front());
+    two.state.bodies.push_back(two.state.bodies.front());
     for (std::size_t i = 0; i < two.size(); ++i)
-        two.points.body[i] = two.points.position[i].z() > 0.03 ? 1 : 0;
+        two.state.points.body[i] = two.state.points.position[i].z() > 0.03 ? 1 : 0;
     CHECK(visible_points(two).size() == 54 - 2);
 }
 

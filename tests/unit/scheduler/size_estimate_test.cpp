@@ -17,11 +17,11 @@ TEST_CASE("the memory of a point is foretold within a sixth, for every force sta
             CAPTURE(name);
             CAPTURE(horizon);
             Model model = specimens::from_positions(specimens::lattice(14, 14, 14, 0.01), 0.01, horizon);
-            const auto force_state = make_force_state(name, Influence::by_name("linear", model.horizon));
+            const auto force_state = make_force_state(name, Influence::by_name("linear", model.state.horizon));
             find_first_families(model, *force_state);
             force_state->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});
             const auto points = static_cast<double>(model.size());
-            const double bonds = static_cast<double>(model.families.bonds()) / points;
+            const double bonds = static_cast<double>(model.neighbourhood.families.bonds()) / points;
             const double told = bytes_of_a_point(name, bonds, 0);
             CHECK(told == doctest::Approx(static_cast<double>(model.memory()) / points).epsilon(1.0 / 6.0));
         }

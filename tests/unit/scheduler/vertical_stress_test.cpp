@@ -20,12 +20,12 @@ std::optional<VerticalStress> profile(const std::vector<Vector3>& points, const 
                                       double gravity = g)
 {
     Model model = from_positions(points, dx);
-    model.gravity = {0.0, 0.0, -gravity};
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    model.state.gravity = {0.0, 0.0, -gravity};
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force);
     set_stress(model, [&](std::size_t i, std::size_t) {
         SymmetricTensor<double> s;
-        s.zz = at(model.points.position[i].z());
+        s.zz = at(model.state.points.position[i].z());
         return s;
     });
     force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});

@@ -25,15 +25,16 @@ TEST_CASE("a body in free flight keeps momentum and angular momentum to round-of
         Model model = from_positions(jittered(lattice(5, 4, 6, dx), dx, 0.1), dx);
         find_first_families(model, force);
         for (std::size_t i = 0; i < model.size(); ++i) {
-            const Vector3& x = model.points.position[i];
-            model.points.velocity[i] = Vector3(2.0, -1.0, 0.5) + Vector3(3.0, -8.0, 20.0).cross(x) +
-                                       0.3 * Vector3(std::sin(60.0 * x.z()), std::cos(80.0 * x.x()), 0.0);
+            const Vector3& x = model.state.points.position[i];
+            model.state.points.velocity[i] = Vector3(2.0, -1.0, 0.5) + Vector3(3.0, -8.0, 20.0).cross(x) +
+                                             0.3 * Vector3(std::sin(60.0 * x.z()), std::cos(80.0 * x.x()), 0.0);
         }
         const auto sums = [&](Vector3& linear, Vector3& angular) {
             linear = angular = Vector3::Zero();
             for (std::size_t i = 0; i < model.size(); ++i) {
-                linear += model.points.mass[i] * model.points.velocity[i];
-                angular += model.points.mass[i] * model.points.position[i].cross(model.points.velocity[i]);
+                linear += model.state.points.mass[i] * model.state.points.velocity[i];
+                angular +=
+                    model.state.points.mass[i] * model.state.points.position[i].cross(model.state.points.velocity[i]);
             }
         };
         Vector3 linear, angular, linear_after, angular_after;
@@ -54,10 +55,10 @@ TEST_CASE("a body in free flight keeps momentum and angular momentum to round-of
 TEST_CASE("a body that takes up mass while it falls closes its energy, and falls on with g")
 {
     Model model = from_positions(lattice(4, 3, 3, dx), dx);
-    model.gravity = {0.0, 0.0, -9.81};
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon));
+    model.state.gravity = {0.0, 0.0, -9.81};
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("constant", model.state.horizon));
     find_first_families(model, *force);
-    for (Vector3& v : model.points.velocity)
+    for (Vector3& v : model.state.points.velocity)
         v = {0.0, 0.0, -1.0};
     ContactForces contact({});
     Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
@@ -69,15 +70,15 @@ TEST_CASE("a body that takes up mass while it falls closes its energy, and falls
         ArrivedEnergy arrived;
         for (std::size_t i = 0; i < model.size(); ++i) {
             const double more = 1e-3 * density * dx * dx * dx; // a fifth over all steps
-            model.points.mass[i] += more;
-            arrived.kinetic += 0.5 * more * model.points.velocity[i].squaredNorm();
-            arrived.gravity -= more * model.gravity.dot(model.points.position[i]);
+            model.state.points.mass[i] += more;
+            arrived.kinetic += 0.5 * more * model.state.points.velocity[i].squaredNorm();
+            arrived.gravity -= more * model.state.gravity.dot(model.state.points.position[i]);
         }
         dynamics.book(arrived);
         dynamics.step({dt, MaterialResponse::full, 0.0});
     }
     // the first half of a step still has the weight of before, a thousandth less
-    CHECK(model.points.velocity[5].z() == doctest::Approx(-1.0 - 9.81 * dt * steps).epsilon(1e-3));
+    CHECK(model.state.points.velocity[5].z() == doctest::Approx(-1.0 - 9.81 * dt * steps).epsilon(1e-3));
     const EnergyLedger& ledger = dynamics.ledger();
     CHECK(ledger.boundary > 0.1 * ledger.kinetic);
     CHECK(std::abs(ledger.error()) < 1e-3 * std::abs(ledger.gravity));
@@ -88,11 +89,11 @@ TEST_CASE("a vibrating elastic block keeps its energy, stress work found apart f
     for (const char* state : {"energy_conjugate", "bond_projection"}) {
         CAPTURE(state);
         Model model = from_positions(lattice(6, 5, 5, dx), dx);
-        const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
+        const auto force = make_force_state(state, Influence::by_name("constant", model.state.horizon));
         find_first_families(model, *force);
         for (std::size_t i = 0; i < model.size(); ++i)
-            model.points.velocity[i] =
-                Vector3(1e-5 * std::cos(std::numbers::pi * model.points.position[i].x() / (6 * dx)), 0.0, 0.0);
+            model.state.points.velocity[i] =
+                Vector3(1e-5 * std::cos(std::numbers::pi * model.state.points.position[i].x() / (6 * dx)), 0.0, 0.0);
         ContactForces contact({});
         Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
         dynamics.start();
@@ -115,12 +116,12 @@ TEST_CASE("points that tremble more slowly than their body drifts come to rest i
     for (const char* state : {"energy_conjugate", "bond_projection"}) {
         CAPTURE(state);
         Model model = from_positions(lattice(4, 4, 4, dx), dx);
-        const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
+        const auto force = make_force_state(state, Influence::by_name("constant", model.state.horizon));
         find_first_families(model, *force);
         const Vector3 drift(0.1, -0.2, 0.1), tremble(1e-4, 1e-4, -1e-4);
         for (std::size_t i = 0; i < model.size(); ++i) {
-            const long layers = std::lround(model.points.position[i].sum() / dx - 1.5);
-            model.points.velocity[i] = drift + (layers % 2 == 0 ? tremble : -tremble);
+            const long layers = std::lround(model.state.points.position[i].sum() / dx - 1.5);
+            model.state.points.velocity[i] = drift + (layers % 2 == 0 ? tremble : -tremble);
         }
         ContactForces contact({});
         Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
@@ -144,15 +145,15 @@ TEST_CASE("a laterally confined column under its weight: sum of V sigma_zz is th
     for (const char* state : {"energy_conjugate", "bond_projection"}) {
         CAPTURE(state);
         Model model = from_positions(lattice(1, 1, 16, dx), dx);
-        model.isometries.set_generators({Isometry::shift(0, dx), Isometry::shift(1, dx)});
-        model.gravity = Vector3(0.0, 0.0, -9.81);
-        const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
+        model.neighbourhood.isometries.set_generators({Isometry::shift(0, dx), Isometry::shift(1, dx)});
+        model.state.gravity = Vector3(0.0, 0.0, -9.81);
+        const auto force = make_force_state(state, Influence::by_name("constant", model.state.horizon));
         find_first_families(model, *force);
         ContactForces contact({});
         Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
         std::uint32_t lowest = 0;
         for (std::uint32_t i = 0; i < model.size(); ++i)
-            if (model.points.position[i].z() < model.points.position[lowest].z())
+            if (model.state.points.position[i].z() < model.state.points.position[lowest].z())
                 lowest = i;
         dynamics.hold({{lowest, Vector3::UnitX()}, {lowest, Vector3::UnitY()}, {lowest, Vector3::UnitZ()}});
         dynamics.start();
@@ -161,13 +162,13 @@ TEST_CASE("a laterally confined column under its weight: sum of V sigma_zz is th
             dynamics.step({4e-5, MaterialResponse::elastic, 0.8});
             REQUIRE(++steps < 60000);
         } while (dynamics.residual() > 1e-7 || steps < 10);
-        std::vector<double> means = model.point_state;
+        std::vector<double> means = model.state.point_states.values;
         mean_point_states(model, *force, means);
         double stress = 0.0, moment = 0.0, upper_error = 0.0;
         for (std::size_t i = 0; i < model.size(); ++i) {
-            const double z = model.points.position[i].z();
-            stress += model.points.volume[i] * means[6 * i + 2];
-            moment -= model.points.mass[i] * 9.81 * (z - model.points.position[lowest].z());
+            const double z = model.state.points.position[i].z();
+            stress += model.state.points.volume[i] * means[6 * i + 2];
+            moment -= model.state.points.mass[i] * 9.81 * (z - model.state.points.position[lowest].z());
             const double depth = 16 * dx - z;
             if (z > 7 * dx && depth > 3 * dx) // a horizon away from the floor row's spike and from the surface
                 upper_error = std::max(upper_error, std::abs(means[6 * i + 2] / (-density * 9.81 * depth) - 1.0));

@@ -31,10 +31,10 @@ std::shared_ptr<const Contact> law(double friction, double restitution = 1.0)
 struct Meeting {
     Meeting(const Vector3& grain, const Vector3& normal, double friction)
         : model(from_positions({grain}, dx)), contact({{law(friction), {0}, 0, {}}}),
-          force(make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon))),
+          force(make_force_state("energy_conjugate", Influence::by_name("constant", model.state.horizon))),
           dynamics(model, *force, contact, {0.1 * dx, false})
     {
-        model.obstacles.push_back({"wall", std::make_shared<periporo::test::HalfSpace>(normal)});
+        model.state.obstacles.push_back({"wall", std::make_shared<periporo::test::HalfSpace>(normal)});
         find_first_families(model, *force);
     }
     void start()
@@ -47,7 +47,7 @@ struct Meeting {
         for (long n = 0; n < std::lround(time / step); ++n)
             dynamics.step({step, MaterialResponse::full, 0.0});
     }
-    double mass() const { return model.points.mass[0]; }
+    double mass() const { return model.state.points.mass[0]; }
 
     Model model;
     ContactForces contact;
@@ -61,12 +61,12 @@ TEST_CASE("a wall of speed V throws a resting grain forwards with 2 V, and that 
 {
     const double v = 0.4;
     Meeting meeting({0.7 * dx, 0.0, 0.0}, Vector3::UnitX(), 0.0);
-    meeting.model.obstacles[0].velocity = {v, 0.0, 0.0};
+    meeting.model.state.obstacles[0].velocity = {v, 0.0, 0.0};
     meeting.start();
     const double period = std::sqrt(meeting.mass() / stiffness);
     meeting.run(0.2 * dx / v + 4.0 * period, 1e-3 * period);
     // Verlet is of second order in omega dt = 1e-3; what the end of the contact cuts off is of the same order
-    CHECK(meeting.model.points.velocity[0].x() == doctest::Approx(2.0 * v).epsilon(1e-5).scale(0.0));
+    CHECK(meeting.model.state.points.velocity[0].x() == doctest::Approx(2.0 * v).epsilon(1e-5).scale(0.0));
     const double kinetic = 0.5 * meeting.mass() * 4.0 * v * v;
     CHECK(meeting.dynamics.ledger().boundary == doctest::Approx(kinetic).epsilon(1e-5).scale(0.0));
     CHECK(std::abs(meeting.dynamics.ledger().error()) < 1e-5 * kinetic);
@@ -79,19 +79,19 @@ TEST_CASE("a belt drags a grain to its speed within v/(mu g), and half of its wo
     const double v = 0.2, mu = 0.3, g = 9.81;
     Meeting meeting({0.0, 0.0, 0.0}, Vector3::UnitZ(), mu);
     const double weight = meeting.mass() * g;
-    meeting.model.points.position[0].z() = 0.5 * dx - weight / stiffness;
-    meeting.model.gravity = {0.0, 0.0, -g};
-    meeting.model.obstacles[0].velocity = {0.0, v, 0.0};
+    meeting.model.state.points.position[0].z() = 0.5 * dx - weight / stiffness;
+    meeting.model.state.gravity = {0.0, 0.0, -g};
+    meeting.model.state.obstacles[0].velocity = {0.0, v, 0.0};
     meeting.start();
     const double time = v / (mu * g);
     const double step = time / 2000.0;
     meeting.run(0.5 * time, step);
-    CHECK(meeting.model.points.velocity[0].y() == doctest::Approx(0.5 * v).epsilon(2e-3).scale(0.0));
+    CHECK(meeting.model.state.points.velocity[0].y() == doctest::Approx(0.5 * v).epsilon(2e-3).scale(0.0));
     // friction sets in at once, and its work is summed as the motion takes it: nothing but round-off is missing
     CHECK(meeting.dynamics.ledger().friction > 0.5 * 0.5 * meeting.mass() * v * v);
     CHECK(std::abs(meeting.dynamics.ledger().error()) < 1e-12 * meeting.mass() * v * v);
     meeting.run(0.6 * time, step);
-    CHECK(meeting.model.points.velocity[0].y() == doctest::Approx(v).epsilon(1e-9).scale(0.0));
+    CHECK(meeting.model.state.points.velocity[0].y() == doctest::Approx(v).epsilon(1e-9).scale(0.0));
     const EnergyLedger& ledger = meeting.dynamics.ledger();
     const double kinetic = 0.5 * meeting.mass() * v * v;
     // sums over 2000 steps of a force that sets in at once: one step of error
@@ -106,7 +106,7 @@ TEST_CASE("the work of a wall that pushes a grain has an error of second order i
     const double v = 0.2, end = 1.5; // omega t of the end, before they part at pi
     const auto error_in = [&](int steps) {
         Meeting meeting({0.5 * dx, 0.0, 0.0}, Vector3::UnitX(), 0.0);
-        meeting.model.obstacles[0].velocity = {v, 0.0, 0.0};
+        meeting.model.state.obstacles[0].velocity = {v, 0.0, 0.0};
         meeting.start();
         const double time = end * std::sqrt(meeting.mass() / stiffness);
         meeting.run(time, time / steps);
@@ -127,7 +127,7 @@ TEST_CASE("a shorter last step keeps the second order of the motion, and the led
     const double v = 0.2, end = 1.5;
     const auto error_in = [&](int steps) {
         Meeting meeting({0.5 * dx, 0.0, 0.0}, Vector3::UnitX(), 0.0);
-        meeting.model.obstacles[0].velocity = {v, 0.0, 0.0};
+        meeting.model.state.obstacles[0].velocity = {v, 0.0, 0.0};
         meeting.start();
         const double step = end * std::sqrt(meeting.mass() / stiffness) / (steps + 0.6);
         meeting.run(steps * step, step);
@@ -136,7 +136,7 @@ TEST_CASE("a shorter last step keeps the second order of the motion, and the led
         CHECK(std::abs(meeting.dynamics.ledger().error()) < 1e-12 * kinetic);
         CHECK(meeting.dynamics.ledger().boundary ==
               doctest::Approx(2.0 * kinetic * (1.0 - std::cos(end))).epsilon(2e-3));
-        return meeting.model.points.velocity[0].x() / (v * (1.0 - std::cos(end))) - 1.0;
+        return meeting.model.state.points.velocity[0].x() / (v * (1.0 - std::cos(end))) - 1.0;
     };
     // the last step has an error of third order by itself: of 0.04 of the other for omega dt = 0.07
     const double coarse = error_in(20), fine = error_in(40);
@@ -147,27 +147,27 @@ TEST_CASE("a shorter last step keeps the second order of the motion, and the led
 TEST_CASE("an obstacle is found again after it has come from afar")
 {
     Meeting meeting({0.0, 0.0, 0.0}, Vector3::UnitX(), 0.0);
-    meeting.model.obstacles[0].shift = {-20.0 * dx, 0.0, 0.0};
-    meeting.model.obstacles[0].velocity = {1.0, 0.0, 0.0};
+    meeting.model.state.obstacles[0].shift = {-20.0 * dx, 0.0, 0.0};
+    meeting.model.state.obstacles[0].velocity = {1.0, 0.0, 0.0};
     meeting.start();
     meeting.run(0.3, 1e-5);
-    CHECK(meeting.model.points.velocity[0].x() == doctest::Approx(2.0).epsilon(1e-3).scale(0.0));
+    CHECK(meeting.model.state.points.velocity[0].x() == doctest::Approx(2.0).epsilon(1e-3).scale(0.0));
 }
 
 TEST_CASE("a grain that falls from afar is caught by the floor, and bounces to where it came from")
 {
     Meeting meeting({0.0, 0.0, 20.0 * dx}, Vector3::UnitZ(), 0.0);
-    meeting.model.gravity = {0.0, 0.0, -9.81};
+    meeting.model.state.gravity = {0.0, 0.0, -9.81};
     meeting.start();
     const double fall = std::sqrt(2.0 * 19.5 * dx / 9.81);
     double lowest = 1.0, highest = 0.0;
     for (int n = 0; n < 25000; ++n) {
         meeting.run(1e-5, 1e-5);
-        lowest = std::min(lowest, meeting.model.points.position[0].z());
+        lowest = std::min(lowest, meeting.model.state.points.position[0].z());
     }
     for (int n = 0; n < static_cast<int>((2.2 * fall - 0.25) / 1e-5); ++n) {
         meeting.run(1e-5, 1e-5);
-        highest = std::max(highest, meeting.model.points.position[0].z());
+        highest = std::max(highest, meeting.model.state.points.position[0].z());
     }
     CHECK(lowest < 0.5 * dx);
     // Verlet at omega dt = 5e-3: of second order
@@ -187,9 +187,9 @@ TEST_CASE("a heap that is pushed down a slope stops on a rough one and slides on
                 heap.push_back(dx * (i * down + j * across + (layer + 0.5) * normal));
     const auto travel = [&](double friction, double time, double& speed) {
         Model model = from_positions(heap, dx);
-        model.gravity = {0.0, 0.0, -g};
-        model.obstacles.push_back({"slope", std::make_shared<periporo::test::HalfSpace>(normal)});
-        const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+        model.state.gravity = {0.0, 0.0, -g};
+        model.state.obstacles.push_back({"slope", std::make_shared<periporo::test::HalfSpace>(normal)});
+        const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
         find_first_families(model, *force);
         ContactForces contact({{law(friction, 0.1), {0}, 0, {}}}); // with 1 it would hop on downhill
         Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
@@ -200,8 +200,8 @@ TEST_CASE("a heap that is pushed down a slope stops on a rough one and slides on
             dynamics.step({step, MaterialResponse::full, 0.0});
         Vector3 moved = Vector3::Zero(), velocity = Vector3::Zero();
         for (std::size_t i = 0; i < model.size(); ++i) {
-            moved += (model.points.position[i] - heap[i]) / static_cast<double>(model.size());
-            velocity += model.points.velocity[i] / static_cast<double>(model.size());
+            moved += (model.state.points.position[i] - heap[i]) / static_cast<double>(model.size());
+            velocity += model.state.points.velocity[i] / static_cast<double>(model.size());
         }
         speed = velocity.dot(down);
         return moved.dot(down);
@@ -223,13 +223,13 @@ TEST_CASE("a heap that is pushed down a slope stops on a rough one and slides on
 TEST_CASE("what a contact holds is lost, and told, when its obstacle is taken away")
 {
     Meeting meeting({0.0, 0.0, 0.0}, Vector3::UnitZ(), 0.0);
-    meeting.model.points.position[0].z() = 0.5 * dx;
+    meeting.model.state.points.position[0].z() = 0.5 * dx;
     meeting.start();
-    meeting.model.points.position[0].z() = 0.3 * dx;
+    meeting.model.state.points.position[0].z() = 0.3 * dx;
     meeting.start();
     const double stored = 0.5 * stiffness * std::pow(0.2 * dx, 2);
     CHECK(meeting.contact.energy() == doctest::Approx(stored).epsilon(1e-12).scale(0.0));
-    meeting.model.obstacles[0].present = false;
+    meeting.model.state.obstacles[0].present = false;
     meeting.dynamics.start();
     CHECK(meeting.contact.energy() == 0.0);
     CHECK(meeting.dynamics.ledger().boundary == doctest::Approx(-stored).epsilon(1e-12).scale(0.0));
@@ -242,8 +242,8 @@ TEST_CASE(
     meeting.start();
     CHECK(meeting.contact.energy() == 0.0);
     const auto energy_at = [&](double height) {
-        meeting.model.points.position[0].z() = height * dx;
-        meeting.model.update_records();
+        meeting.model.state.points.position[0].z() = height * dx;
+        meeting.model.gather_ends();
         std::vector<Vector3> force(1, Vector3::Zero());
         meeting.contact.add_reactions(meeting.model, 1e-5, ContactForces::Approach::none, force);
         return meeting.contact.energy();
@@ -261,13 +261,13 @@ TEST_CASE("points that are pulled do the work that a bar takes up")
     // Eight layers; the last is pulled for a while too short for the wave to come back from the first, which is held.
     const double v = 0.01;
     Model model = from_positions(lattice(3, 3, 8, dx), dx);
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force);
     ContactForces contact(std::vector<ContactAssignment>{});
     Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
     std::vector<HeldDirection> held;
     for (std::uint32_t i = 0; i < model.size(); ++i) {
-        const double z = model.points.position[i].z();
+        const double z = model.state.points.position[i].z();
         if (z < dx || z > 7.0 * dx)
             for (Eigen::Index c = 0; c < 3; ++c)
                 held.push_back({i, Vector3::Unit(c), z > dx && c == 2 ? v : 0.0});
@@ -280,7 +280,7 @@ TEST_CASE("points that are pulled do the work that a bar takes up")
         dynamics.step({step, MaterialResponse::full, 0.0});
     const EnergyLedger& ledger = dynamics.ledger();
     for (const HeldDirection& at : held)
-        CHECK(std::abs(model.points.velocity[at.point].dot(at.direction) - at.speed) < 1e-12 * v);
+        CHECK(std::abs(model.state.points.velocity[at.point].dot(at.direction) - at.speed) < 1e-12 * v);
     CHECK(ledger.stress_work > 0.0);
     CHECK(ledger.boundary > 0.0);
     // Force and stress are linear in the strain of 1e-3 but for the strain itself; its share of a step is 1e-6
@@ -293,17 +293,17 @@ namespace {
 struct HeldBar {
     explicit HeldBar(int layers)
         : model(from_positions(lattice(1, 1, layers, dx), dx)),
-          force(make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon))),
+          force(make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon))),
           dynamics(model, *force, contact, {0.1 * dx, false})
     {
-        model.isometries.set_generators({Isometry::shift(0, dx), Isometry::shift(1, dx)});
+        model.neighbourhood.isometries.set_generators({Isometry::shift(0, dx), Isometry::shift(1, dx)});
         find_first_families(model, *force);
     }
     void hold(const std::function<bool(double)>& which, const std::function<double(double)>& speed)
     {
         std::vector<HeldDirection> held;
         for (std::uint32_t i = 0; i < model.size(); ++i)
-            if (const double z = model.points.position[i].z(); which(z))
+            if (const double z = model.state.points.position[i].z(); which(z))
                 held.push_back({i, Vector3::UnitZ(), speed(z)});
         dynamics.hold(held);
         dynamics.start();
@@ -355,7 +355,7 @@ TEST_CASE("the work of a bar's end that pulls a free layer has an error of secon
     const auto error_in = [&](int steps) {
         HeldBar bar(2);
         bar.hold(lower, speed);
-        const double mass = bar.model.points.mass[1];
+        const double mass = bar.model.state.points.mass[1];
         const double time = end * std::sqrt(mass / spring);
         bar.run(time, steps);
         return bar.dynamics.ledger().boundary / (mass * v * v * (1.0 - std::cos(end))) - 1.0;

@@ -39,12 +39,12 @@ std::shared_ptr<const Contact> law(double friction, double restitution)
 struct Scene {
     Scene(const std::vector<Vector3>& grains, const std::vector<Shape>& shapes, double friction, double restitution)
         : model(from_positions(grains, dx)), contact(assignments(shapes.size(), friction, restitution)),
-          force(make_force_state("energy_conjugate", Influence::by_name("constant", model.horizon))),
+          force(make_force_state("energy_conjugate", Influence::by_name("constant", model.state.horizon))),
           dynamics(model, *force, contact, {0.1 * dx, false})
     {
         for (const Shape& shape : shapes)
-            model.obstacles.push_back({"obstacle", shape});
-        model.gravity = Vector3::Zero();
+            model.state.obstacles.push_back({"obstacle", shape});
+        model.state.gravity = Vector3::Zero();
         find_first_families(model, *force);
     }
     static std::vector<ContactAssignment> assignments(std::size_t count, double friction, double restitution)
@@ -65,8 +65,8 @@ struct Scene {
     {
         double sum = contact.energy();
         for (std::size_t i = 0; i < model.size(); ++i)
-            sum += model.points.mass[i] *
-                   (0.5 * model.points.velocity[i].squaredNorm() - model.gravity.dot(model.points.position[i]));
+            sum += model.state.points.mass[i] * (0.5 * model.state.points.velocity[i].squaredNorm() -
+                                                 model.state.gravity.dot(model.state.points.position[i]));
         return sum;
     }
 
@@ -81,8 +81,8 @@ double energy_error(const Shape& shape, const Vector3& from, const Vector3& velo
                     double duration, double time_step)
 {
     Scene scene({from}, {shape}, 0.0, 1.0);
-    scene.model.points.velocity[0] = velocity;
-    scene.model.gravity = gravity;
+    scene.model.state.points.velocity[0] = velocity;
+    scene.model.state.gravity = gravity;
     scene.start();
     const double before = scene.energy();
     double error = 0.0;
@@ -92,7 +92,7 @@ double energy_error(const Shape& shape, const Vector3& from, const Vector3& velo
         error = std::max(error, std::abs(scene.energy() - before));
         most_stored = std::max(most_stored, scene.contact.energy());
     }
-    const double kinetic = 0.5 * scene.model.points.mass[0] * velocity.squaredNorm();
+    const double kinetic = 0.5 * scene.model.state.points.mass[0] * velocity.squaredNorm();
     CHECK(most_stored > 0.1 * kinetic); // it touches
     CHECK(scene.contact.crossings().empty());
     return error / kinetic;
@@ -139,8 +139,8 @@ TEST_CASE("one obstacle with a corner pushes as three obstacles with a face each
                 std::vector<Vector3> forces;
                 const Vector3 velocity(speed(generator), speed(generator), speed(generator));
                 for (Scene* scene : {&one, &three}) {
-                    scene->model.points.velocity[0] = velocity;
-                    scene->model.update_records();
+                    scene->model.state.points.velocity[0] = velocity;
+                    scene->model.gather_ends();
                     scene->contact.find_candidates(scene->model, 0.0);
                     std::vector<Vector3> force(1, Vector3::Zero());
                     scene->contact.add_reactions(scene->model, 1e-5, ContactForces::Approach::real, force);
@@ -203,13 +203,13 @@ TEST_CASE("a grain comes to rest in a corner of one obstacle, where it comes to 
         Scene bouncing({start}, {corner.shape}, 0.0, 0.1);
         for (Scene* scene : {&settling, &bouncing}) {
             const double damping = scene == &settling ? 0.8 : 0.0;
-            scene->model.gravity = gravity;
+            scene->model.state.gravity = gravity;
             scene->start();
             for (int n = 0; n < 2000; ++n) // 20 ms of 38/s; omega = 527/s
                 scene->step(damping > 0.0 ? 5e-4 : 5e-5, damping);
             // each face carries its part of the weight: m g = k o
-            const Vector3 rest = Vector3::Constant(reach) + scene->model.points.mass[0] / stiffness * gravity;
-            CHECK((scene->model.points.position[0] - rest).norm() < 1e-6 * reach);
+            const Vector3 rest = Vector3::Constant(reach) + scene->model.state.points.mass[0] / stiffness * gravity;
+            CHECK((scene->model.state.points.position[0] - rest).norm() < 1e-6 * reach);
             CHECK(scene->dynamics.residual() < 1e-3);
         }
     }
@@ -222,8 +222,8 @@ TEST_CASE("the friction of a groove is that of the pushes of its two sides")
     const double overlap = 0.1 * reach;
     const double mu = 0.3;
     Scene scene({Vector3(0.0, 0.013, std::sqrt(2.0) * (reach - overlap))}, {groove}, mu, 1.0);
-    scene.model.points.velocity[0] = {0.0, 1.0, 0.0};
-    scene.model.update_records();
+    scene.model.state.points.velocity[0] = {0.0, 1.0, 0.0};
+    scene.model.gather_ends();
     scene.contact.find_candidates(scene.model, 0.0);
     std::vector<Vector3> force(1, Vector3::Zero());
     scene.contact.add_reactions(scene.model, 1e-5, ContactForces::Approach::none, force);
@@ -249,13 +249,13 @@ TEST_CASE("a thin plate throws a grain back as a thick wall does, as long as its
         thin_law->scale({dx, 3.015 * dx, ContactPartner::surface});
         Scene scene({Vector3(0.0, 0.0, 2e-3)}, {box({-0.1, -0.1, -thickness}, {0.1, 0.1, 0.0})}, 0.0, 1.0);
         scene.contact = ContactForces({{thin_law, {0}, 0, {}}});
-        scene.model.points.velocity[0] = {0.2, 0.0, -speed};
+        scene.model.state.points.velocity[0] = {0.2, 0.0, -speed};
         scene.start();
         for (int n = 0; n < 800; ++n) {
             scene.step(1e-5);
             REQUIRE(scene.contact.crossings().empty());
         }
-        back.push_back(scene.model.points.velocity[0]);
+        back.push_back(scene.model.state.points.velocity[0]);
     }
     CHECK(back[0].z() == doctest::Approx(speed).epsilon(1e-5)); // (omega dt)^2/24 = 1e-6
     CHECK((back[0] - back[1]).norm() < 1e-12);
@@ -267,16 +267,16 @@ TEST_CASE("a grain that goes through a plate is seen once, and does not gain ene
     for (const double speed : {4.0, 30.0, 3000.0}) { // sinks through, and leaps over the plate in a step
         CAPTURE(speed);
         Scene scene({Vector3(0.0, 0.0, 0.021)}, {box({-0.1, -0.1, -2e-3}, {0.1, 0.1, 0.0})}, 0.0, 1.0);
-        scene.model.points.velocity[0] = {0.0, 0.0, -speed};
+        scene.model.state.points.velocity[0] = {0.0, 0.0, -speed};
         scene.start();
         const double before = scene.energy();
         int crossings = 0;
-        for (int n = 0; n < 200 && scene.model.points.position[0].z() > -0.05; ++n) {
+        for (int n = 0; n < 200 && scene.model.state.points.position[0].z() > -0.05; ++n) {
             scene.step(1e-4 * std::min(1.0, 30.0 / speed) * (speed > 1000.0 ? 10.0 : 1.0));
             crossings += static_cast<int>(scene.contact.crossings().size());
         }
         CHECK(crossings == 1);
-        CHECK(scene.model.points.position[0].z() < -0.02);
+        CHECK(scene.model.state.points.position[0].z() < -0.02);
         CHECK(scene.contact.crossed_points()[0] == 1);
         CHECK(scene.energy() <= before * (1.0 + 1e-3)); // half of (omega dt)^2
     }
@@ -286,7 +286,7 @@ TEST_CASE("a plate that comes fast is held to the same")
 {
     using periporo::test::box;
     Scene scene({Vector3(0.0, 0.0, -0.021)}, {box({-0.1, -0.1, 0.0}, {0.1, 0.1, 2e-3})}, 0.0, 1.0);
-    scene.model.obstacles[0].velocity = {0.0, 0.0, -300.0};
+    scene.model.state.obstacles[0].velocity = {0.0, 0.0, -300.0};
     scene.start();
     int crossings = 0;
     for (int n = 0; n < 3; ++n) {
@@ -305,23 +305,24 @@ TEST_CASE("a contact that is restored goes on with the same bits")
         periporo::test::boolean("union", {box({-0.1, -0.1, -2e-3}, {0.1, 0.1, 0.0}), box(low, Vector3(0.0, 0.1, 0.1))});
     const std::vector<Vector3> grains{{0.05, 0.05, 1.1 * reach}, {0.9 * reach, 0.0, 0.9 * reach}, {0.02, 0.0, 0.02}};
     const auto launch = [&](Scene& scene) {
-        scene.model.points.velocity = {{0.0, 0.1, -3.8}, {-0.3, 0.0, -0.4}, {-0.4, 0.0, -0.4}};
-        scene.model.obstacles[0].velocity = {0.01, 0.0, 0.02};
+        scene.model.state.points.velocity = {{0.0, 0.1, -3.8}, {-0.3, 0.0, -0.4}, {-0.4, 0.0, -0.4}};
+        scene.model.state.obstacles[0].velocity = {0.01, 0.0, 0.02};
     };
     Scene whole(grains, {shape}, 0.2, 0.8);
     launch(whole);
     whole.start();
     for (int n = 0; n < 300; ++n)
         whole.step(1e-5);
-    REQUIRE(whole.model.points.position[0].z() - whole.model.obstacles[0].shift.z() < -1.1e-3); // nearer to the back
+    REQUIRE(whole.model.state.points.position[0].z() - whole.model.state.obstacles[0].shift.z() <
+            -1.1e-3); // nearer to the back
     Scene resumed(grains, {shape}, 0.2, 0.8);
     launch(resumed);
     resumed.start();
     periporo::test::save_and_restore(whole.contact, resumed.contact, grains.size(), std::size_t{1});
     resumed.contact.resume(resumed.model, 0.1 * dx);
-    resumed.model.obstacles[0].shift = whole.model.obstacles[0].shift;
-    resumed.model.points = whole.model.points;
-    resumed.model.update_records();
+    resumed.model.state.obstacles[0].shift = whole.model.state.obstacles[0].shift;
+    resumed.model.state.points = whole.model.state.points;
+    resumed.model.gather_ends();
     for (int n = 0; n < 1000; ++n) {
         whole.step(1e-5);
         resumed.step(1e-5);
@@ -329,8 +330,8 @@ TEST_CASE("a contact that is restored goes on with the same bits")
     CHECK(whole.contact.crossed_points()[0] == 0);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         CAPTURE(i);
-        CHECK(whole.model.points.position[i] == resumed.model.points.position[i]);
-        CHECK(whole.model.points.position[i].z() > 0.0); // it was held
+        CHECK(whole.model.state.points.position[i] == resumed.model.state.points.position[i]);
+        CHECK(whole.model.state.points.position[i].z() > 0.0); // it was held
     }
 }
 
@@ -341,7 +342,7 @@ TEST_CASE("a grain that crosses a plate right after it was restored lets go of w
     const std::vector<Vector3> grains{{0.05, 0.05, 1.1 * reach}};
     const auto launched = [&](int steps) {
         auto scene = std::make_unique<Scene>(grains, std::vector<Shape>{plate}, 0.2, 0.8);
-        scene->model.points.velocity = {{0.0, 0.0, -6.0}};
+        scene->model.state.points.velocity = {{0.0, 0.0, -6.0}};
         scene->start();
         for (int n = 0; n < steps; ++n)
             scene->step(1e-5);
@@ -356,7 +357,7 @@ TEST_CASE("a grain that crosses a plate right after it was restored lets go of w
     periporo::test::save_and_restore(whole->contact, resumed->contact, grains.size(), std::size_t{1});
     periporo::test::save_and_restore(whole->dynamics, resumed->dynamics);
     resumed->contact.resume(resumed->model, 0.1 * dx);
-    resumed->model.points = whole->model.points;
+    resumed->model.state.points = whole->model.state.points;
     for (Scene* scene : {whole.get(), resumed.get()}) {
         scene->step(1e-5);
         CHECK(scene->contact.crossings().size() == 1);

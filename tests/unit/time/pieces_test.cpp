@@ -56,8 +56,8 @@ Model two_blocks(double gap, std::shared_ptr<const Material> material)
     for (std::size_t i = 0; i < lower; ++i)
         x.push_back(x[i] + Vector3(0.0, 0.0, 2.0 * dx + gap));
     Model model = from_positions(x, dx);
-    model.bodies.front().material = std::move(material);
-    model.bodies.front().joining_distance = 0.0;
+    model.state.bodies.front().material = std::move(material);
+    model.state.bodies.front().joining_distance = 0.0;
     model.allocate();
     return model;
 }
@@ -73,7 +73,7 @@ double distance_between(const Model& model)
     double least = 1.0;
     for (std::size_t i = 0; i < model.size() / 2; ++i)
         for (std::size_t j = model.size() / 2; j < model.size(); ++j)
-            least = std::min(least, (model.points.position[i] - model.points.position[j]).norm());
+            least = std::min(least, (model.state.points.position[i] - model.state.points.position[j]).norm());
     return least;
 }
 
@@ -82,7 +82,7 @@ Vector3 momentum(const Model& model, bool upper)
     Vector3 sum = Vector3::Zero();
     for (std::size_t i = 0; i < model.size(); ++i)
         if (is_upper(model, i) == upper)
-            sum += model.points.mass[i] * model.points.velocity[i];
+            sum += model.state.points.mass[i] * model.state.points.velocity[i];
     return sum;
 }
 
@@ -104,16 +104,16 @@ struct Meeting {
 Meeting meet(const std::string& force_state, std::shared_ptr<const Material> material, double restitution)
 {
     Model model = two_blocks(2.0 * dx, std::move(material));
-    const auto force = make_force_state(force_state, Influence::by_name("linear", model.horizon));
+    const auto force = make_force_state(force_state, Influence::by_name("linear", model.state.horizon));
     ContactForces contact({{between_pieces(restitution, 0.0), {0, 0}}});
     find_first_families(model, *force);
     Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
     const double speed = 0.5;
     for (std::size_t i = 0; i < model.size(); ++i)
-        model.points.velocity[i] = Vector3(0.0, 0.0, is_upper(model, i) ? -speed : 0.0);
+        model.state.points.velocity[i] = Vector3(0.0, 0.0, is_upper(model, i) ? -speed : 0.0);
     dynamics.start();
     dynamics.open_ledger();
-    const double mass = model.points.mass[0] * static_cast<double>(model.size() / 2);
+    const double mass = model.state.points.mass[0] * static_cast<double>(model.size() / 2);
     const double energy = 0.5 * mass * speed * speed;
     Meeting meeting;
     for (int step = 0; step < 1500; ++step) { // 60 ms: 24 until they touch, some 6 of contact
@@ -165,22 +165,22 @@ TEST_CASE("blocks of cohesionless soil meet at the same distance and part no fas
 TEST_CASE("a block of soil that falls on its own lower part comes to rest on it, and its weight arrives at the floor")
 {
     Model model = two_blocks(1.9 * dx, cohesionless_soil());
-    model.gravity = Vector3(0.0, 0.0, -g);
+    model.state.gravity = Vector3(0.0, 0.0, -g);
     // a wide column: symmetry planes on all four sides
-    model.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(0, 4.0 * dx),
-                                     Isometry::reflection(1, 0.0), Isometry::reflection(1, 4.0 * dx)});
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    model.neighbourhood.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(0, 4.0 * dx),
+                                                   Isometry::reflection(1, 0.0), Isometry::reflection(1, 4.0 * dx)});
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     Parameters floor = contact_parameters(0.1, 0.5);
     floor.set("point", std::vector<double>{0.0, 0.0, 0.0});
     floor.set("normal", std::vector<double>{0.0, 0.0, 1.0});
     const auto plane = std::make_shared<RigidPlane>(floor);
-    plane->scale({dx, model.horizon});
+    plane->scale({dx, model.state.horizon});
     ContactForces contact({{plane, {0}}, {between_pieces(0.1, 0.5), {0, 0}}});
     find_first_families(model, *force);
     Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
     dynamics.start();
     dynamics.open_ledger();
-    const double mass = model.points.mass[0] * static_cast<double>(model.size());
+    const double mass = model.state.points.mass[0] * static_cast<double>(model.size());
     double reaction = 0.0, error = 0.0;
     std::size_t steps = 0;
     for (int step = 0; step < 5000; ++step) { // 0.2 s; the fall takes 0.045 s

@@ -107,15 +107,15 @@ TEST_CASE("a vibration about a place is rest, a creep below a stronger vibration
         Model model = from_positions(lattice(2, 2, 2, 0.01), 0.01);
         RestCriterion::State state;
         RestCriterion criterion(free_rule, state);
-        const std::vector<Vector3> first = model.points.position;
+        const std::vector<Vector3> first = model.state.points.position;
         constexpr double speed = 0.03, frequency = 4e3, step = 2e-5; // faster than the rest speed
         for (int n = 1; n < 50000; ++n) {
             const double t = n * step;
             for (std::size_t i = 0; i < model.size(); ++i) {
                 const double side = i % 2 == 0 ? 1.0 : -1.0;
-                model.points.position[i].z() = first[i].z() + side * speed / frequency * std::sin(frequency * t);
-                model.points.position[i].x() = first[i].x() + creep * t;
-                model.points.velocity[i] = {creep, 0.0, side * speed * std::cos(frequency * t)};
+                model.state.points.position[i].z() = first[i].z() + side * speed / frequency * std::sin(frequency * t);
+                model.state.points.position[i].x() = first[i].x() + creep * t;
+                model.state.points.velocity[i] = {creep, 0.0, side * speed * std::cos(frequency * t)};
             }
             if (criterion.follow(model, t, 9.81))
                 return t;
@@ -133,16 +133,16 @@ TEST_CASE("a body on a heavy one that is at rest keeps a stage going, by its mot
 {
     const auto rest_with = [](double creep, double tremble) {
         Model model = from_positions(lattice(3, 1, 1, 0.01), 0.01);
-        model.bodies.push_back(model.bodies.front());
-        model.points.body[2] = 1;
-        model.points.mass[0] = model.points.mass[1] = 100.0; // the ground
-        const Vector3 first = model.points.position[2];
+        model.state.bodies.push_back(model.state.bodies.front());
+        model.state.points.body[2] = 1;
+        model.state.points.mass[0] = model.state.points.mass[1] = 100.0; // the ground
+        const Vector3 first = model.state.points.position[2];
         RestCriterion::State state;
         RestCriterion criterion(free_rule, state);
         double place = 0.0;
         for (int n = 1; n < 1000; ++n) {
             place += 1e-3 * (creep + (n / 20 % 2 == 0 ? tremble : -tremble));
-            model.points.position[2] = first + place * Vector3::UnitX();
+            model.state.points.position[2] = first + place * Vector3::UnitX();
             if (criterion.follow(model, 1.000001e-3 * n, 9.81)) // 20 steps fill a window in spite of round-off
                 return true;
         }

@@ -22,12 +22,12 @@ double dense_frequency(Model& model, const ForceState& force)
     Eigen::MatrixXd k(n, n);
     for (Eigen::Index c = 0; c < n; ++c) {
         for (std::size_t i = 0; i < model.size(); ++i)
-            model.points.velocity[i] = Vector3::Zero();
-        model.points.velocity[static_cast<std::size_t>(c / 3)][c % 3] = 1.0;
-        model.update_records();
+            model.state.points.velocity[i] = Vector3::Zero();
+        model.state.points.velocity[static_cast<std::size_t>(c / 3)][c % 3] = 1.0;
+        model.gather_ends();
         force.evaluate(model, {StressUpdate::tangent, MaterialResponse::elastic, 0.0});
         for (Eigen::Index r = 0; r < n; ++r)
-            k(r, c) = -model.internal_force[static_cast<std::size_t>(r / 3)][r % 3] / model.points.mass[0];
+            k(r, c) = -model.result.internal_force[static_cast<std::size_t>(r / 3)][r % 3] / model.state.points.mass[0];
     }
     return std::sqrt(k.eigenvalues().real().maxCoeff());
 }
@@ -36,7 +36,7 @@ double dense_frequency(Model& model, const ForceState& force)
 struct BlockInHighestMode {
     explicit BlockInHighestMode(const char* influence)
         : model(from_positions(lattice(5, 5, 5, dx), dx)),
-          force(make_force_state("energy_conjugate", Influence::by_name(influence, model.horizon)))
+          force(make_force_state("energy_conjugate", Influence::by_name(influence, model.state.horizon)))
     {
         find_first_families(model, *force);
         FrequencyEstimate estimate;
@@ -45,7 +45,7 @@ struct BlockInHighestMode {
         for (const Vector3& value : estimate.mode())
             largest = std::max(largest, value.norm());
         for (std::size_t i = 0; i < model.size(); ++i)
-            model.points.velocity[i] = 1e-9 * estimate.mode()[i] / largest;
+            model.state.points.velocity[i] = 1e-9 * estimate.mode()[i] / largest;
         dynamics.start();
         dynamics.open_ledger();
     }
@@ -94,7 +94,7 @@ TEST_CASE("the largest frequency of the dense operator is found, from below")
     for (const char* state : {"energy_conjugate", "bond_projection"}) {
         CAPTURE(state);
         Model model = from_positions(jittered(lattice(4, 4, 5, dx), dx, 0.1), dx);
-        const auto force = make_force_state(state, Influence::by_name("constant", model.horizon));
+        const auto force = make_force_state(state, Influence::by_name("constant", model.state.horizon));
         find_first_families(model, *force);
         const double exact = dense_frequency(model, *force);
         FrequencyEstimate estimate;
@@ -108,11 +108,11 @@ TEST_CASE("a stiff place that arises away from the last highest mode is found wi
 {
     // 768 points; the highest mode is in the bulk. Then one corner point becomes light, and its mode the highest.
     Model model = from_positions(jittered(lattice(8, 8, 12, dx), dx, 0.1), dx);
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force);
     FrequencyEstimate estimate;
     const double before = estimate.update(model, *force);
-    model.points.mass[0] /= 8.0;
+    model.state.points.mass[0] /= 8.0;
     const double renewed = estimate.update(model, *force);
     const int after_change = estimate.evaluations();
     FrequencyEstimate anew;
@@ -169,7 +169,7 @@ TEST_CASE(
         CAPTURE(ground.damping);
         const auto growth = [&](double factor) {
             BlockInHighestMode block("constant");
-            const double mass = block.model.points.mass[0];
+            const double mass = block.model.state.points.mass[0];
             block.contact =
                 ContactForces({{std::make_shared<Bedding>(ground.stiffness * mass * std::pow(block.omega, 2),
                                                           ground.damping * mass * block.omega),
@@ -183,8 +183,8 @@ TEST_CASE(
                     stable_step(block.model, *block.force, block.contact, estimate, 1.0, step, true, unresolved).step;
             CHECK(step < 0.97 * 2.0 / block.omega);
             for (std::size_t i = 0; i < block.model.size(); ++i) // the lowest layer meets the ground
-                if (block.model.points.position[i].z() < dx)
-                    block.model.points.velocity[i].z() += 1e-9 * (i % 2 == 0 ? 1.0 : -1.0);
+                if (block.model.state.points.position[i].z() < dx)
+                    block.model.state.points.velocity[i].z() += 1e-9 * (i % 2 == 0 ? 1.0 : -1.0);
             block.dynamics.start();
             const double first = block.dynamics.mean_speed();
             double largest = 0.0;

@@ -19,8 +19,8 @@ constexpr double g = 9.81;
 Model column(double level)
 {
     Model model = from_positions(lattice(4, 4, 10, dx), dx);
-    model.gravity = {0.0, 0.0, -g};
-    model.bodies[0].water_level = level;
+    model.state.gravity = {0.0, 0.0, -g};
+    model.state.bodies[0].water_level = level;
     return model;
 }
 
@@ -44,8 +44,8 @@ TEST_CASE("layers of different density add up from the top")
 {
     Model model = column(-1.0);
     for (std::size_t i = 0; i < model.size(); ++i)
-        if (model.points.position[i].z() < 0.05)
-            model.points.mass[i] *= 1.2;
+        if (model.state.points.position[i].z() < 0.05)
+            model.state.points.mass[i] *= 1.2;
     const Overburden overburden(model, 0);
     CHECK(overburden.at(0.08, 0) == doctest::Approx(density * g * (0.05 + 1.2 * 0.03)).epsilon(1e-12));
 }
@@ -53,11 +53,11 @@ TEST_CASE("layers of different density add up from the top")
 TEST_CASE("a submerged column that carries its weight in water has no deviation in the profile of vertical stress")
 {
     Model model = column(0.2);
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force);
     set_stress(model, [&](std::size_t i, std::size_t) {
         SymmetricTensor<double> s;
-        s.zz = -(density - 1000.0) * g * (0.1 - model.points.position[i].z());
+        s.zz = -(density - 1000.0) * g * (0.1 - model.state.points.position[i].z());
         return s;
     });
     force->evaluate(model, {StressUpdate::keep, MaterialResponse::full, 0.0});

@@ -26,17 +26,17 @@ constexpr double time_step = 1e-4; ///< a third of the stable one of the lightes
 struct Plate {
     Model model = from_positions(lattice(6, 6, 3, dx), dx);
     std::unique_ptr<ForceState> force =
-        make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+        make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     ContactForces contact{std::vector<ContactAssignment>{}};
     Dynamics dynamics{model, *force, contact, {0.1 * dx, false}};
 
     Plate(double its_density, double height)
     {
-        model.gravity = {0.0, 0.0, -g};
-        model.bodies[0].water_level = 0.0;
+        model.state.gravity = {0.0, 0.0, -g};
+        model.state.bodies[0].water_level = 0.0;
         for (std::size_t i = 0; i < model.size(); ++i) {
-            model.points.mass[i] = its_density * model.points.volume[i];
-            model.points.position[i].z() += height;
+            model.state.points.mass[i] = its_density * model.state.points.volume[i];
+            model.state.points.position[i].z() += height;
         }
         find_first_families(model, *force);
         dynamics.start();
@@ -45,7 +45,7 @@ struct Plate {
     double height() const
     {
         double sum = 0.0;
-        for (const Vector3& x : model.points.position)
+        for (const Vector3& x : model.state.points.position)
             sum += x.z();
         return sum / static_cast<double>(model.size());
     }
@@ -118,10 +118,10 @@ TEST_CASE("a block that comes up from the deep leaves the water with the work th
 TEST_CASE("still water pushes up and nowhere else, and its lift does not depend on threads")
 {
     Model model = from_positions(jittered(lattice(10, 10, 10, dx), dx, 0.2), dx);
-    model.gravity = {0.0, 0.0, -g};
-    model.bodies[0].water_level = 0.103;
+    model.state.gravity = {0.0, 0.0, -g};
+    model.state.bodies[0].water_level = 0.103;
     for (std::size_t i = 0; i < model.size(); ++i)
-        model.points.velocity[i] = {0.1, 0.2, std::sin(static_cast<double>(i))};
+        model.state.points.velocity[i] = {0.1, 0.2, std::sin(static_cast<double>(i))};
     const int before = omp_get_max_threads();
     std::vector<double> power;
     std::vector<std::vector<double>> lift(2);

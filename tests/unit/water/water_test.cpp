@@ -81,7 +81,7 @@ double van_genuchten(double suction)
 TEST_CASE("above a water table the suction is that of water at rest, and the mass is that of grains and water")
 {
     Block block(curve, "water = { type = \"hydrostatic\", water_table = \"z = 300 mm\", largest_suction = \"5 kPa\" }");
-    const Points& points = block.built.model.points;
+    const Points& points = block.built.model.state.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double height = points.position[i].z() - 0.3;
         const double suction = std::min(5e3, std::max(0.0, 1000.0 * 9.81 * height));
@@ -95,7 +95,7 @@ TEST_CASE("above a water table the suction is that of water at rest, and the mas
 TEST_CASE("a field gives each point the suction of the nearest row, whatever the order of its columns")
 {
     Block block(curve, "water = { type = \"field\", file = \"suction.csv\" }");
-    const Points& points = block.built.model.points;
+    const Points& points = block.built.model.state.points;
     for (std::size_t i = 0; i < points.size(); ++i)
         CHECK(points.suction(i) == (points.position[i].z() < 0.5 ? 7e3 : 3e3));
     check_mentions(message_of_error([] { Block(curve, "water = { type = \"field\", file = \"below.csv\" }"); }),
@@ -111,8 +111,8 @@ TEST_CASE("suction goes evenly from one value to the other, the saturation along
     for (const auto& [time, suction] : {std::pair{0.0, 8e3}, {0.125, 6.5e3}, {0.5, 2e3}, {0.75, 2e3}}) {
         CAPTURE(time);
         water.follow(model, time);
-        CHECK(model.points.suction(7) == doctest::Approx(suction).epsilon(1e-14));
-        CHECK(model.points.saturation[7] == doctest::Approx(van_genuchten(suction)).epsilon(1e-14));
+        CHECK(model.state.points.suction(7) == doctest::Approx(suction).epsilon(1e-14));
+        CHECK(model.state.points.saturation[7] == doctest::Approx(van_genuchten(suction)).epsilon(1e-14));
     }
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("water that comes adds its weight, and brings the energy of where it c
     Block block(curve, "water = { type = \"uniform\", suction = \"8 kPa\" }",
                 "water = [{ body = \"block\", type = \"uniform\", suction = \"2 kPa\", over = \"0.5 s\" }]");
     Model& model = block.built.model;
-    Points& points = model.points;
+    Points& points = model.state.points;
     points.velocity[9] = {1.0, 2.0, -2.0};
     points.volume[9] *= 1.1; // takes up no water
     Water water = block.begun();
@@ -149,11 +149,11 @@ TEST_CASE("without a curve the saturation goes evenly, and what gets dry is dry 
     Model& model = block.built.model;
     Water water = block.begun();
     water.follow(model, 0.25);
-    CHECK(model.points.suction(3) == doctest::Approx(6e3));
-    CHECK(model.points.saturation[3] == doctest::Approx(0.15));
+    CHECK(model.state.points.suction(3) == doctest::Approx(6e3));
+    CHECK(model.state.points.saturation[3] == doctest::Approx(0.15));
     water.follow(model, 1.0);
-    CHECK(model.points.suction(3) == 0.0);
-    CHECK(model.points.saturation[3] == 0.0);
+    CHECK(model.state.points.suction(3) == 0.0);
+    CHECK(model.state.points.saturation[3] == 0.0);
 }
 
 TEST_CASE("a dry body with a curve is not saturated, until its water changes")
@@ -162,10 +162,10 @@ TEST_CASE("a dry body with a curve is not saturated, until its water changes")
     Model& model = block.built.model;
     Water water = block.begun();
     water.follow(model, 0.0);
-    CHECK(model.points.saturation[0] == 0.0);
+    CHECK(model.state.points.saturation[0] == 0.0);
     water.follow(model, 0.5);
-    CHECK(model.points.suction(0) == doctest::Approx(1e3));
-    CHECK(model.points.saturation[0] == doctest::Approx(van_genuchten(1e3)));
+    CHECK(model.state.points.suction(0) == doctest::Approx(1e3));
+    CHECK(model.state.points.saturation[0] == doctest::Approx(van_genuchten(1e3)));
 }
 
 TEST_CASE("a curve that knows the porosity follows the volume of the point: phi = 1 - (1 - phi0) V0/V")
@@ -175,16 +175,17 @@ TEST_CASE("a curve that knows the porosity follows the volume of the point: phi 
                 "water = { type = \"uniform\", suction = \"3 kPa\" }");
     Model& model = block.built.model;
     model.allocate();
-    model.update_records(); // finds the water
+    model.gather_ends(); // finds the water
     Water water = block.begun();
-    const double before = model.points.saturation[5];
+    const double before = model.state.points.saturation[5];
     CHECK(before == doctest::Approx(1.0 / std::sqrt(1.0 + std::pow(1.5, 2))));
-    model.points.volume[5] *= 1.2;
+    model.state.points.volume[5] *= 1.2;
     CHECK(porosity_of(model, 5) == doctest::Approx(0.5)); // 1 - 0.6/1.2
     water.follow(model, 0.1);
     // air enters at 2 kPa (e0/e)^3, with e0 = 2/3 and e = 1
-    CHECK(model.points.saturation[5] == doctest::Approx(1.0 / std::sqrt(1.0 + std::pow(3e3 / (2e3 * 8.0 / 27.0), 2))));
-    CHECK(model.points.saturation[6] == doctest::Approx(before));
+    CHECK(model.state.points.saturation[5] ==
+          doctest::Approx(1.0 / std::sqrt(1.0 + std::pow(3e3 / (2e3 * 8.0 / 27.0), 2))));
+    CHECK(model.state.points.saturation[6] == doctest::Approx(before));
 }
 
 namespace {
@@ -205,7 +206,7 @@ constexpr double grains = 2500.0 * 0.6 * 1e-3; ///< of a point of the block [kg]
 /// Lifts all points of a model.
 void lift(Model& model, double height)
 {
-    for (Vector3& x : model.points.position)
+    for (Vector3& x : model.state.points.position)
         x.z() += height;
 }
 
@@ -217,7 +218,7 @@ TEST_CASE("below a water table the pore pressure is that of water at rest, and t
         CAPTURE(retention);
         Block block(retention,
                     retention.empty() ? half_wet : "water = { type = \"hydrostatic\", water_table = \"z = 500 mm\" }");
-        const Points& points = block.built.model.points;
+        const Points& points = block.built.model.state.points;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double height = points.position[i].z() - 0.5;
             CHECK(points.pore_pressure[i] == doctest::Approx(-at_rest(height)).epsilon(1e-12));
@@ -235,7 +236,7 @@ TEST_CASE("a bound on the suction does not bound the pressure below the table")
 {
     Block block("", "water = { type = \"hydrostatic\", water_table = \"z = 500 mm\", largest_suction = \"1 kPa\", "
                     "saturation = 0.25 }");
-    const std::vector<double>& pressure = block.built.model.points.pore_pressure;
+    const std::vector<double>& pressure = block.built.model.state.points.pore_pressure;
     CHECK(*std::ranges::min_element(pressure) == -1e3);
     CHECK(*std::ranges::max_element(pressure) == doctest::Approx(at_rest(0.45)).epsilon(1e-12));
 }
@@ -243,7 +244,7 @@ TEST_CASE("a bound on the suction does not bound the pressure below the table")
 TEST_CASE("a cell that the table cuts is saturated where it is under water")
 {
     Block block("", "water = { type = \"hydrostatic\", water_table = \"z = 530 mm\", saturation = 0.25 }");
-    const Points& points = block.built.model.points;
+    const Points& points = block.built.model.state.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (std::abs(points.position[i].z() - 0.55) > 0.01)
             continue;
@@ -261,14 +262,14 @@ TEST_CASE("a table that falls, and one that rises, has water at rest around it a
                                  "saturation = 0.25, over = \"1 s\" }]";
         Block block("", rises ? low : half_wet, rises ? rise : drawdown);
         Model& model = block.built.model;
-        const Points& points = model.points;
+        const Points& points = model.state.points;
         Water water = block.begun();
         for (const double time : {0.0, 0.25, 0.6, 1.0, 1.1}) {
             CAPTURE(time);
             water.follow(model, time);
             const double done = std::min(time, 1.0);
             const double level = rises ? 0.1 + 0.4 * done : 0.5 - 0.4 * done;
-            CHECK(model.bodies[0].water_level == doctest::Approx(level).epsilon(1e-12));
+            CHECK(model.state.bodies[0].water_level == doctest::Approx(level).epsilon(1e-12));
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const double height = points.position[i].z() - level;
                 const double share = std::clamp(0.5 - height / 0.1, 0.0, 1.0);
@@ -291,12 +292,12 @@ TEST_CASE("water that comes altogether fills a body from its bottom, and leaves 
         Model& model = block.built.model;
         Water water = block.begun();
         water.follow(model, 0.4);
-        CHECK(model.bodies[0].water_level == doctest::Approx(comes ? 0.2 : 0.3).epsilon(1e-12));
+        CHECK(model.state.bodies[0].water_level == doctest::Approx(comes ? 0.2 : 0.3).epsilon(1e-12));
         water.follow(model, 1.0);
-        CHECK(model.bodies[0].has_standing_water() == comes);
+        CHECK(model.state.bodies[0].has_standing_water() == comes);
         for (std::size_t i = 0; i < model.size(); ++i)
-            CHECK(model.points.pore_pressure[i] ==
-                  doctest::Approx(comes ? at_rest(0.5 - model.points.position[i].z()) : -2e3).epsilon(1e-12));
+            CHECK(model.state.points.pore_pressure[i] ==
+                  doctest::Approx(comes ? at_rest(0.5 - model.state.points.position[i].z()) : -2e3).epsilon(1e-12));
     }
 }
 
@@ -304,7 +305,7 @@ TEST_CASE("soil that sinks into standing water fills and loses its suction, even
 {
     Block block("", half_wet);
     Model& model = block.built.model;
-    const Points& points = model.points;
+    const Points& points = model.state.points;
     std::size_t top = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
         top = points.position[i].z() > points.position[top].z() ? i : top;
@@ -348,17 +349,17 @@ TEST_CASE("under water the pores of soil that opens stay full: less its buoyancy
 {
     Block block("", half_wet);
     Model& model = block.built.model;
-    for (double& volume : model.points.volume)
+    for (double& volume : model.state.points.volume)
         volume *= 1.1;
     Water water = block.begun();
     water.follow(model, 0.0);
     const double in_water = (2500.0 - 1000.0) * 0.6 * 1e-3; // [kg]
     const StandingWater standing(model);
     for (std::size_t i = 0; i < model.size(); ++i)
-        if (model.points.position[i].z() < 0.5)
-            CHECK(model.points.mass[i] - standing.buoyancy_of(i) / g == doctest::Approx(in_water).epsilon(1e-12));
+        if (model.state.points.position[i].z() < 0.5)
+            CHECK(model.state.points.mass[i] - standing.buoyancy_of(i) / g == doctest::Approx(in_water).epsilon(1e-12));
         else
-            CHECK(model.points.mass[i] == doctest::Approx(grains + 0.1).epsilon(1e-12)); // takes up none
+            CHECK(model.state.points.mass[i] == doctest::Approx(grains + 0.1).epsilon(1e-12)); // takes up none
 }
 
 TEST_CASE("a stage that follows a change, and one that was resumed, goes on from the same water")
@@ -367,16 +368,16 @@ TEST_CASE("a stage that follows a change, and one that was resumed, goes on from
     Model& model = block.built.model;
     Water water = block.begun();
     water.follow(model, 0.6);
-    const Points before = model.points;
+    const Points before = model.state.points;
     StageDescription still = block.description.stages[0];
     still.water_changes.clear();
     water.begin_stage(model, still);
     Water resumed = block.built.water; // with lists of the right lengths
     Model other = model;
-    other.bodies[0].water_level = 7.0;
+    other.state.bodies[0].water_level = 7.0;
     save_and_restore(water, resumed);
     resumed.resume(other, still);
-    CHECK(other.bodies[0].water_level == model.bodies[0].water_level);
+    CHECK(other.state.bodies[0].water_level == model.state.bodies[0].water_level);
     for (const auto& [one, its] : {std::pair{&water, &model}, {&resumed, &other}}) {
         const ArrivedEnergy arrived = one->follow(*its, 0.1);
         // own pressure and that of the standing water are interpolated apart: round-off
@@ -386,7 +387,7 @@ TEST_CASE("a stage that follows a change, and one that was resumed, goes on from
             CHECK(its->points.mass[i] == doctest::Approx(before.mass[i]).epsilon(1e-14));
         }
     }
-    CHECK(other.points.pore_pressure == model.points.pore_pressure);
+    CHECK(other.state.points.pore_pressure == model.state.points.pore_pressure);
 }
 
 TEST_CASE("a body out of the water that reaches below the table of another is remarked on")
@@ -411,11 +412,11 @@ TEST_CASE("soil that falls into the water and fills keeps its energy, and that o
     Block block("", "water = { type = \"hydrostatic\", water_table = \"z = -50 mm\", largest_suction = \"100 Pa\", "
                     "saturation = 0.25 }");
     Model& model = block.built.model;
-    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.horizon));
+    const auto force = make_force_state("energy_conjugate", Influence::by_name("linear", model.state.horizon));
     find_first_families(model, *force);
     Water water = block.begun();
     ContactForces contact(std::vector<ContactAssignment>{});
-    Dynamics dynamics(model, *force, contact, {0.1 * model.spacing, false});
+    Dynamics dynamics(model, *force, contact, {0.1 * model.state.spacing, false});
     water.follow(model, 0.0);
     dynamics.start();
     dynamics.open_ledger();
@@ -424,7 +425,7 @@ TEST_CASE("soil that falls into the water and fills keeps its energy, and that o
         dynamics.book(water.follow(model, step * time_step, time_step));
         dynamics.step({time_step, MaterialResponse::full, 0.0});
     }
-    CHECK(*std::ranges::min_element(model.points.saturation) == 1.0);
+    CHECK(*std::ranges::min_element(model.state.points.saturation) == 1.0);
     const EnergyLedger& ledger = dynamics.ledger();
     MESSAGE("energy error over the work of the lift: " << ledger.error() / std::abs(ledger.boundary));
     CHECK(std::abs(ledger.error()) < 1e-5 * std::abs(ledger.boundary)); // stress is not linear in the motion of a step

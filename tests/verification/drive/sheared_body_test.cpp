@@ -20,21 +20,21 @@ TEST_CASE("a point on a path of simple shear has the stress of every point of a 
     for (const char* state : {"energy_conjugate", "bond_projection"}) {
         CAPTURE(state);
         Model model = from_positions(lattice(4, 3, 4, dx), dx);
-        const auto force = make_force_state(state, Influence::by_name("linear", model.horizon));
+        const auto force = make_force_state(state, Influence::by_name("linear", model.state.horizon));
         find_first_families(model, *force);
         ContactForces contact(std::vector<ContactAssignment>{});
         Dynamics dynamics(model, *force, contact, {0.1 * dx, false});
         std::vector<HeldDirection> held;
         for (std::uint32_t i = 0; i < model.size(); ++i)
             for (Eigen::Index c = 0; c < 3; ++c)
-                held.push_back({i, Vector3::Unit(c), c == 0 ? rate * model.points.position[i].z() : 0.0});
+                held.push_back({i, Vector3::Unit(c), c == 0 ? rate * model.state.points.position[i].z() : 0.0});
         dynamics.hold(held);
         dynamics.start();
         for (int n = 0; n < steps; ++n)
             dynamics.step({gamma / rate / steps, MaterialResponse::full, 0.0});
-        std::vector<double> means = model.point_state;
+        std::vector<double> means = model.state.point_states.values;
         mean_point_states(model, *force, means);
-        const double shear_modulus = model.bodies[0].material->shear_modulus();
+        const double shear_modulus = model.state.bodies[0].material->shear_modulus();
         for (std::size_t i = 0; i < model.size(); ++i) {
             // the operator turns the old stress by the whole angle of a step: half a step of 0.001 behind
             const double off = 1e-3 * shear_modulus;

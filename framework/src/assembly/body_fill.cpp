@@ -1,9 +1,9 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-#include "model/body_fill.hpp"
+#include "assembly/body_fill.hpp"
 
-#include "model/body_samples.hpp"
+#include "assembly/body_samples.hpp"
 #include "periporo/first_exception.hpp"
 
 #include <fmt/format.h>

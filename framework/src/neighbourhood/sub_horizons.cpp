@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-#include "families/sub_horizons.hpp"
+#include "neighbourhood/sub_horizons.hpp"
 
 #include "periporo/first_exception.hpp"
 #include "periporo/pack.hpp"

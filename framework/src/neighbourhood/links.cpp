@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Finds links of points and images, and what chains of them reach.
-#include "families/links.hpp"
+#include "neighbourhood/links.hpp"
 
-#include "families/families.hpp"
+#include "neighbourhood/families.hpp"
 
 #include <algorithm>
 

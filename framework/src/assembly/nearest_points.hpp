@@ -4,7 +4,7 @@
 // The nearest point of each of the samples of a block.
 #pragma once
 
-#include "families/cell_list.hpp"
+#include "neighbourhood/cell_list.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-#include "model/images.hpp"
+#include "neighbourhood/images.hpp"
 
 #include <algorithm>
 #include <deque>

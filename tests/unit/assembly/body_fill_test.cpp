@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Bodies filled with material points: by a lattice, by a shaken one, by a centroidal Voronoi tessellation.
-#include "model/body_fill.hpp"
+#include "assembly/body_fill.hpp"
 
-#include "families/cell_list.hpp"
-#include "model/body_samples.hpp"
+#include "assembly/body_samples.hpp"
+#include "neighbourhood/cell_list.hpp"
 #include "support/errors.hpp"
 
 #include <doctest/doctest.h>

@@ -17,11 +17,11 @@ namespace {
 constexpr double dx = 0.01;
 constexpr double horizon = 3.015 * dx;
 
-/// With families, sub-horizons and halos.
+/// With families, sub-horizons and accumulators.
 Model model_of(const std::vector<Vector3>& positions, double reach = horizon)
 {
     Model model = from_positions(positions, dx, reach / dx);
-    model.find_families();
+    model.neighbourhood.find(model.state);
     return model;
 }
 
@@ -80,15 +80,15 @@ TEST_CASE("a bulk point of a lattice at delta = 3.015 dx has 122 bonds whose sub
     // counted by hand: integer vectors with 0 < n.n <= 9, and for each the ones within distance 3.015 of it
     const Model model = model_of(lattice(9, 9, 9, dx));
     constexpr std::size_t centre = (4 * 9 + 4) * 9 + 4;
-    CHECK(model.families[centre].count == 122);
+    CHECK(model.neighbourhood.families[centre].count == 122);
     int members = 0;
-    for (const std::vector<int>& sub_horizon : membership(model.sub_horizons[centre]))
+    for (const std::vector<int>& sub_horizon : membership(model.neighbourhood.sub_horizons[centre]))
         members += std::accumulate(sub_horizon.begin(), sub_horizon.end() - 1, 0);
     CHECK(members == 6764);
     // what the differences are for: far fewer visits than members
     std::size_t pairs = 0;
     for (std::size_t b = 0; b < 122; ++b)
-        pairs += model.sub_horizons[centre].changes[b].pairs;
+        pairs += model.neighbourhood.sub_horizons[centre].changes[b].pairs;
     CHECK(pairs < 2000);
 }
 
@@ -103,10 +103,10 @@ TEST_CASE("families and sub-horizons of a random cloud are those of the definiti
             for (std::uint32_t j = 0; j < x.size(); ++j)
                 if (j != i && joined(x, i, j, reach))
                     expected.insert(j);
-            const FamilyView family = model.families[i];
+            const FamilyView family = model.neighbourhood.families[i];
             largest = std::max(largest, family.count);
             REQUIRE(std::set<std::uint32_t>(family.neighbours, family.neighbours + family.count) == expected);
-            const std::vector<std::vector<int>> counts = membership(model.sub_horizons[i]);
+            const std::vector<std::vector<int>> counts = membership(model.neighbourhood.sub_horizons[i]);
             for (std::size_t k = 0; k < family.count; ++k)
                 for (std::size_t b = 0; b < family.count; ++b) {
                     const bool inside = (x[family.neighbours[k]] - x[family.neighbours[b]]).norm() <= reach;
@@ -117,31 +117,32 @@ TEST_CASE("families and sub-horizons of a random cloud are those of the definiti
     }
 }
 
-TEST_CASE("halos reach all neighbours, and every place arrives once at its point")
+TEST_CASE("every neighbour has an accumulator in the block, which contributes once to its point")
 {
     Model model = from_positions(jittered(lattice(7, 6, 5, dx), dx, 0.2), dx);
-    model.isometries.set_generators({Isometry::reflection(0, 0.0)});
-    model.find_families();
-    const Halos& halos = model.halos;
-    REQUIRE(halos.blocks() == 4);
-    std::vector<std::uint32_t> point_at(halos.places(), 0), isometry_at(halos.places(), 0);
-    std::vector<int> arrivals(halos.places(), 0);
+    model.neighbourhood.isometries.set_generators({Isometry::reflection(0, 0.0)});
+    model.neighbourhood.find(model.state);
+    const BlockAccumulators& blocks = model.neighbourhood.blocks;
+    const Families& families = model.neighbourhood.families;
+    REQUIRE(blocks.blocks() == 4);
+    std::vector<std::uint32_t> point_of(blocks.size(), 0), isometry_of(blocks.size(), 0);
+    std::vector<int> contributions(blocks.size(), 0);
     for (std::size_t i = 0; i < model.size(); ++i)
-        for (const Halos::Arrival arrival : halos.arrivals(i)) {
-            point_at[arrival.place] = static_cast<std::uint32_t>(i);
-            isometry_at[arrival.place] = arrival.isometry;
-            ++arrivals[arrival.place];
+        for (const BlockAccumulators::Contribution part : blocks.contributions(i)) {
+            point_of[part.accumulator] = static_cast<std::uint32_t>(i);
+            isometry_of[part.accumulator] = part.isometry;
+            ++contributions[part.accumulator];
         }
-    CHECK(std::all_of(arrivals.begin(), arrivals.end(), [](int count) { return count == 1; }));
-    for (std::size_t block = 0; block < halos.blocks(); ++block)
-        for (std::size_t i = halos.first_point(block); i < halos.end_point(block); ++i) {
-            CHECK(point_at[halos.first_place(block) + i - halos.first_point(block)] == i);
-            const FamilyView family = model.families[i];
+    CHECK(std::all_of(contributions.begin(), contributions.end(), [](int count) { return count == 1; }));
+    for (std::size_t block = 0; block < blocks.blocks(); ++block)
+        for (std::size_t i = blocks.first_point(block); i < blocks.end_point(block); ++i) {
+            CHECK(point_of[blocks.first(block) + i - blocks.first_point(block)] == i);
+            const FamilyView family = families[i];
             for (std::size_t b = 0; b < family.count; ++b) {
-                const std::size_t place = halos.first_place(block) +
-                                          halos.place_of_neighbours(family.first_pack + b / pack_width)[b % pack_width];
-                REQUIRE(point_at[place] == model.families.parent(family.neighbours[b]));
-                REQUIRE(isometry_at[place] == model.families.isometry(family.neighbours[b]));
+                const std::uint16_t* of_neighbours = blocks.of_neighbours(family.first_pack + b / pack_width);
+                const std::size_t accumulator = blocks.first(block) + of_neighbours[b % pack_width];
+                REQUIRE(point_of[accumulator] == families.parent(family.neighbours[b]));
+                REQUIRE(isometry_of[accumulator] == families.isometry(family.neighbours[b]));
             }
         }
 }
@@ -149,8 +150,9 @@ TEST_CASE("halos reach all neighbours, and every place arrives once at its point
 TEST_CASE("every bond has an opposite, from the neighbour to the point, images included")
 {
     Model model = from_positions(jittered(lattice(5, 5, 5, dx), dx, 0.2), dx);
-    model.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(1, 0.0)});
-    const Families families = Families::find(model.points, model.isometries, {horizon, link_length(dx, horizon)});
+    model.neighbourhood.isometries.set_generators({Isometry::reflection(0, 0.0), Isometry::reflection(1, 0.0)});
+    const Families families =
+        Families::find(model.state.points, model.neighbourhood.isometries, {horizon, link_length(dx, horizon)});
     std::size_t to_images = 0;
     for (std::size_t i = 0; i < families.points(); ++i) {
         const FamilyView family = families[i];
@@ -160,10 +162,10 @@ TEST_CASE("every bond has an opposite, from the neighbour to the point, images i
             to_images += g != 0 ? 1 : 0;
             const FamilyView other = families[p];
             const std::size_t back =
-                families.opposite(static_cast<std::uint32_t>(i), family.neighbours[b], model.isometries);
+                families.opposite(static_cast<std::uint32_t>(i), family.neighbours[b], model.neighbourhood.isometries);
             REQUIRE(back < other.count);
             CHECK(families.parent(other.neighbours[back]) == i);
-            CHECK(families.isometry(other.neighbours[back]) == model.isometries.inverse(g));
+            CHECK(families.isometry(other.neighbours[back]) == model.neighbourhood.isometries.inverse(g));
         }
     }
     CHECK(to_images > 1000);
@@ -172,13 +174,14 @@ TEST_CASE("every bond has an opposite, from the neighbour to the point, images i
 TEST_CASE("points of different bodies are never of one family")
 {
     Model model = from_positions(lattice(4, 4, 4, dx), dx);
-    model.bodies.push_back(model.bodies.front());
+    model.state.bodies.push_back(model.state.bodies.front());
     for (std::size_t i = 0; i < model.size(); ++i)
-        model.points.body[i] = model.points.position[i].z() > 2.0 * dx ? 1 : 0;
-    const Families families = Families::find(model.points, model.isometries, {horizon, link_length(dx, horizon)});
+        model.state.points.body[i] = model.state.points.position[i].z() > 2.0 * dx ? 1 : 0;
+    const Families families =
+        Families::find(model.state.points, model.neighbourhood.isometries, {horizon, link_length(dx, horizon)});
     for (std::size_t i = 0; i < families.points(); ++i)
         for (std::size_t b = 0; b < families[i].count; ++b)
-            CHECK(model.points.body[families[i].neighbours[b]] == model.points.body[i]);
+            CHECK(model.state.points.body[families[i].neighbours[b]] == model.state.points.body[i]);
 }
 
 TEST_CASE("a lone point, a pair, a row and a sheet have finite evaluations and no active bond")
@@ -195,9 +198,9 @@ TEST_CASE("a lone point, a pair, a row and a sheet have finite evaluations and n
             set_velocity(model, [](const Vector3& x) { return Vector3(x.y() * 3.0, -x.x(), 7.0 * x.x()); });
             force.evaluate(model, {StressUpdate::advance, MaterialResponse::full, 1e-4});
             for (std::size_t i = 0; i < model.size(); ++i) {
-                CHECK(model.internal_force[i] == Vector3::Zero());
-                CHECK(model.free_grain[i] == 1);
-                CHECK(model.inactive_bonds[i] == model.families[i].count);
+                CHECK(model.result.internal_force[i] == Vector3::Zero());
+                CHECK(model.result.detached[i] == 1);
+                CHECK(model.result.inactive_bonds[i] == model.neighbourhood.families[i].count);
             }
         });
 }

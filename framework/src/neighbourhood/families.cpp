@@ -1,9 +1,9 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-#include "families/families.hpp"
+#include "neighbourhood/families.hpp"
 
-#include "families/cell_list.hpp"
+#include "neighbourhood/cell_list.hpp"
 #include "periporo/first_exception.hpp"
 #include "periporo/pack.hpp"
 

@@ -4,11 +4,11 @@
 // Families: for every point the points of its body within the horizon that are of one piece with it.
 #pragma once
 
-#include "families/links.hpp"
-#include "model/aligned.hpp"
-#include "model/images.hpp"
-#include "model/points.hpp"
+#include "neighbourhood/images.hpp"
+#include "neighbourhood/links.hpp"
 #include "periporo/pack.hpp"
+#include "state/aligned.hpp"
+#include "state/points.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,7 +4,7 @@
 // Sub-horizons of all bonds, kept as the way by which sums over them follow from each other.
 #pragma once
 
-#include "families/families.hpp"
+#include "neighbourhood/families.hpp"
 
 #include <cstdint>
 #include <type_traits>

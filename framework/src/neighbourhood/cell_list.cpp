@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-#include "families/cell_list.hpp"
+#include "neighbourhood/cell_list.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Isometries and the images they make.
-#include "model/images.hpp"
+#include "neighbourhood/images.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-#include "model/body_samples.hpp"
+#include "assembly/body_samples.hpp"
 
-#include "model/nearest_points.hpp"
+#include "assembly/nearest_points.hpp"
 #include "periporo/first_exception.hpp"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 // Links: pairs of close neighbours that are one piece of matter. Chains of links make families.
 #pragma once
 
-#include "model/images.hpp"
-#include "model/points.hpp"
+#include "neighbourhood/images.hpp"
+#include "state/points.hpp"
 
 #include <algorithm>
 #include <compare>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Sums whose last bit does not depend on the number of threads.
-#include "time/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 
 #include <doctest/doctest.h>
 
