@@ -22,10 +22,28 @@ namespace periporo {
 /// linear, quadratic and cubic_b_spline vanish at the horizon: bonds come and go at zero weight.
 enum class InfluenceKind { constant, linear, quadratic, gaussian, cubic_b_spline, inverse_distance };
 
+struct NamedInfluence {
+    InfluenceKind kind;
+    const char* name;
+};
+/// All influence functions by name. A new one is added here and in Influence::operator().
+inline constexpr NamedInfluence influence_table[] = {
+    {InfluenceKind::constant, "constant"},
+    {InfluenceKind::linear, "linear"},
+    {InfluenceKind::quadratic, "quadratic"},
+    {InfluenceKind::gaussian, "gaussian"},
+    {InfluenceKind::cubic_b_spline, "cubic_b_spline"},
+    {InfluenceKind::inverse_distance, "inverse_distance"},
+};
+
 inline const std::vector<std::string>& influence_names()
 {
-    static const std::vector<std::string> names{"constant", "linear",         "quadratic",
-                                                "gaussian", "cubic_b_spline", "inverse_distance"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const NamedInfluence& one : influence_table)
+            all.emplace_back(one.name);
+        return all;
+    }();
     return names;
 }
 
@@ -47,9 +65,9 @@ public:
     /// @throws std::invalid_argument for a name that is not in influence_names().
     static Influence by_name(const std::string& name, double horizon)
     {
-        for (std::size_t n = 0; n < influence_names().size(); ++n)
-            if (influence_names()[n] == name)
-                return {static_cast<InfluenceKind>(n), horizon};
+        for (const NamedInfluence& one : influence_table)
+            if (one.name == name)
+                return {one.kind, horizon};
         throw std::invalid_argument("no influence function is called '" + name + "'");
     }
 

@@ -186,7 +186,7 @@ TEST_CASE("families that were kept are restored as they were, although positions
     const Families::Kept kept = model.neighbourhood.families.kept();
     Model again = blocks(0.9);
     again.neighbourhood.isometries.set_generators({Isometry::reflection(0, 0.0)});
-    again.restore_families(kept);
+    again.neighbourhood.restore(again.state, kept);
     CHECK(bonds_across(again) == 0);
     for (std::size_t i = 0; i < model.size(); ++i) {
         REQUIRE(again.neighbourhood.families[i].count == model.neighbourhood.families[i].count);
@@ -197,5 +197,5 @@ TEST_CASE("families that were kept are restored as they were, although positions
     }
     Families::Kept damaged = kept;
     damaged.family_neighbours.front() = 1u << 30;
-    CHECK_THROWS(again.restore_families(damaged));
+    CHECK_THROWS(again.neighbourhood.restore(again.state, damaged));
 }

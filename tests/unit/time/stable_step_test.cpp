@@ -104,6 +104,30 @@ TEST_CASE("the largest frequency of the dense operator is found, from below")
     }
 }
 
+TEST_CASE("the estimate changes no state and no result of the model")
+{
+    for (const char* state : {"energy_conjugate", "bond_projection"}) {
+        CAPTURE(state);
+        Model model = from_positions(jittered(lattice(4, 4, 5, dx), dx, 0.1), dx);
+        const auto force = make_force_state(state, Influence::by_name("linear", model.state.horizon));
+        find_first_families(model, *force);
+        set_velocity(model, [](const Vector3& x) { return Vector3(x.y(), -0.3 * x.x(), 0.1); });
+        force->evaluate(model, {StressUpdate::advance, MaterialResponse::full, 1e-5});
+        const Model before = model;
+        FrequencyEstimate().update(model, *force);
+        CHECK(model.state.points.velocity == before.state.points.velocity);
+        CHECK(model.result.internal_force == before.result.internal_force);
+        CHECK(model.result.stress_work == before.result.stress_work);
+        CHECK(model.result.volume_rate == before.result.volume_rate);
+        CHECK(model.result.active == before.result.active);
+        for (std::size_t i = 0; i < model.size(); ++i) {
+            REQUIRE(model.ends[i].v() == before.ends[i].v());
+            for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b)
+                REQUIRE(model.bond_state(i, b)[0] == before.bond_state(i, b)[0]);
+        }
+    }
+}
+
 TEST_CASE("a stiff place that arises away from the last highest mode is found within a renewal")
 {
     // 768 points; the highest mode is in the bulk. Then one corner point becomes light, and its mode the highest.

@@ -383,8 +383,8 @@ TEST_CASE("a stage that follows a change, and one that was resumed, goes on from
         // own pressure and that of the standing water are interpolated apart: round-off
         CHECK(std::abs(arrived.gravity) < 1e-12);
         for (std::size_t i = 0; i < before.size(); ++i) {
-            CHECK(its->points.pore_pressure[i] == doctest::Approx(before.pore_pressure[i]).epsilon(1e-12));
-            CHECK(its->points.mass[i] == doctest::Approx(before.mass[i]).epsilon(1e-14));
+            CHECK(its->state.points.pore_pressure[i] == doctest::Approx(before.pore_pressure[i]).epsilon(1e-12));
+            CHECK(its->state.points.mass[i] == doctest::Approx(before.mass[i]).epsilon(1e-14));
         }
     }
     CHECK(other.state.points.pore_pressure == model.state.points.pore_pressure);
