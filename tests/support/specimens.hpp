@@ -102,9 +102,8 @@ inline void set_stress(Model& model, const std::function<SymmetricTensor<double>
     for (std::size_t i = 0; i < model.size(); ++i)
         for (std::size_t b = 0; b < model.neighbourhood.families[i].count; ++b) {
             const SymmetricTensor<double> s = stress(i, b);
-            const double components[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
             for (std::size_t c = 0; c < 6; ++c)
-                bond_value(model, i, b, c) = components[c];
+                bond_value(model, i, b, c) = components(s)[c];
         }
 }
 

@@ -104,14 +104,14 @@ public:
     MaterialStatus step(const MixedStep& step)
     {
         Components strain = Components::Zero();
-        Components target = components(stress());
+        Components target = column(stress());
         for (int c = 0; c < 6; ++c)
             (step.stress_controlled[static_cast<std::size_t>(c)] ? target : strain)[c] +=
                 step.increment[static_cast<std::size_t>(c)];
         const auto residual = [&](const Components& trial, MaterialStatus& status) {
             Rows rows = rows_;
             status = respond(rows, tensor(trial), step.time_step, turn_of(step, trial));
-            Components difference = components(tensor(rows)) - target;
+            Components difference = column(tensor(rows)) - target;
             for (int c = 0; c < 6; ++c)
                 if (!step.stress_controlled[static_cast<std::size_t>(c)])
                     difference[c] = 0.0;
@@ -146,11 +146,8 @@ private:
     using Components = Eigen::Matrix<double, 6, 1>;
     static constexpr int most_iterations = 60;
 
-    static Components components(const SymmetricTensor<double>& a)
-    {
-        return (Components() << a.xx, a.yy, a.zz, a.xy, a.yz, a.xz).finished();
-    }
-    static SymmetricTensor<double> tensor(const Components& c) { return {c[0], c[1], c[2], c[3], c[4], c[5]}; }
+    static Components column(const SymmetricTensor<double>& a) { return Components(components(a).data()); }
+    static SymmetricTensor<double> tensor(const Components& c) { return symmetric_tensor(c); }
     static SymmetricTensor<double> tensor(const Rows& rows)
     {
         return {rows[0][0], rows[1][0], rows[2][0], rows[3][0], rows[4][0], rows[5][0]};
@@ -158,7 +155,7 @@ private:
     static void store(const SymmetricTensor<double>& tensor, Rows& rows)
     {
         std::size_t c = 0;
-        for (const double component : {tensor.xx, tensor.yy, tensor.zz, tensor.xy, tensor.yz, tensor.xz})
+        for (const double component : components(tensor))
             rows[c++] = component;
     }
 
@@ -200,7 +197,7 @@ private:
         MaterialStatus status = material_->update(batch(rows, strain, time_step));
         if (turn != 0.0 && status.converged)
             turn_stress(rows, 0.5 * turn);
-        if (status.converged && !components(tensor(rows)).allFinite())
+        if (status.converged && !column(tensor(rows)).allFinite())
             status = {false, 0, "the law gave a stress that is not a finite number and did not say so"};
         return status;
     }

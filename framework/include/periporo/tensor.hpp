@@ -7,6 +7,7 @@
 #include "periporo/pack.hpp"
 
 #include <Eigen/Core>
+#include <array>
 
 namespace periporo {
 
@@ -158,6 +159,19 @@ Tensor<Real> operator*(const Tensor<Real>& a, const SymmetricTensor<Real>& b)
             a.yx * b.xy + a.yy * b.yy + a.yz * b.yz, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
             a.zx * b.xx + a.zy * b.xy + a.zz * b.xz, a.zx * b.xy + a.zy * b.yy + a.zz * b.yz,
             a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+}
+
+/// Components xx yy zz xy yz xz, the order of the rows of a state.
+template <class Real>
+std::array<Real, 6> components(const SymmetricTensor<Real>& a)
+{
+    return {a.xx, a.yy, a.zz, a.xy, a.yz, a.xz};
+}
+/// The symmetric tensor of components xx yy zz xy yz xz: an array, or anything with an index.
+template <class Real = double, class Components>
+SymmetricTensor<Real> symmetric_tensor(const Components& c)
+{
+    return {c[0], c[1], c[2], c[3], c[4], c[5]};
 }
 
 /// The tensor with the same components as a symmetric one.

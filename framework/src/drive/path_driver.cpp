@@ -27,7 +27,7 @@ struct Increment {
     Increment first_half(const MaterialPoint& point) const
     {
         Increment half = second_half();
-        const std::array<double, 6> stress = components_of(point.stress());
+        const std::array<double, 6> stress = components(point.stress());
         for (std::size_t c = 0; c < 6; ++c)
             if (stress_controlled[c])
                 half.values.components[c] = std::midpoint(stress[c], values.components[c]);
@@ -54,7 +54,7 @@ MixedStep mixed_step(const MaterialPoint& point, const Increment& increment)
     step.increment = increment.values.components;
     step.time_step = increment.time_step;
     step.simple_shear = increment.simple_shear;
-    const std::array<double, 6> stress = components_of(point.stress());
+    const std::array<double, 6> stress = components(point.stress());
     double largest = 1e3; // [Pa]: below, differences of a millionth of a pascal mean nothing
     for (std::size_t c = 0; c < 6; ++c) {
         largest = std::max(largest, std::abs(stress[c]));

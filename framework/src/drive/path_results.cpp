@@ -35,10 +35,9 @@ std::vector<Column> columns_of(const PathDescription& path, const PathRow& row)
                                    {"time", "s", row.time}};
     for (std::size_t c = 0; c < 6; ++c)
         columns.push_back(
-            {fmt::format("stress_{}", symmetric_component_names[c]), "Pa", components_of(point.stress())[c]});
+            {fmt::format("stress_{}", symmetric_component_names[c]), "Pa", components(point.stress())[c]});
     for (std::size_t c = 0; c < 6; ++c)
-        columns.push_back(
-            {fmt::format("strain_{}", symmetric_component_names[c]), "-", components_of(point.strain())[c]});
+        columns.push_back({fmt::format("strain_{}", symmetric_component_names[c]), "-", components(point.strain())[c]});
     columns.push_back({"p", "Pa", mean_pressure(point.stress())});
     columns.push_back({"q", "Pa", deviator_stress(point.stress())});
     columns.push_back({"volumetric_compression", "-", 0.0 - trace(point.strain())});
@@ -83,9 +82,9 @@ std::string component_list(const std::array<std::optional<double>, 6>& component
 
 std::array<std::optional<double>, 6> all_components(const SymmetricTensor<double>& tensor)
 {
-    std::array<std::optional<double>, 6> components;
-    std::ranges::copy(components_of(tensor), components.begin());
-    return components;
+    std::array<std::optional<double>, 6> all;
+    std::ranges::copy(components(tensor), all.begin());
+    return all;
 }
 
 std::string state_list(const MaterialPoint& point, const char* separator)
@@ -167,7 +166,7 @@ std::string failing_step_text(const PathDescription& path, const PathRecord& rec
     }
     text += material_text(path, before);
     std::vector<double> stress;
-    std::ranges::copy(components_of(before.stress()), std::back_inserter(stress));
+    std::ranges::copy(components(before.stress()), std::back_inserter(stress));
     text += fmt::format("\n[initial]\nstress = {}\nsuction = {}\nsaturation = {}\n\n[initial.state]\n{}\n\n",
                         toml_text(stress), toml_text(before.suction()), toml_text(before.saturation()),
                         state_list(before, "\n"));

@@ -25,13 +25,13 @@ StagePlan at_rest(const MaterialPoint& point)
 void control_stress(StagePlan& plan, std::size_t component, const MaterialPoint& point, double target)
 {
     plan.stress_controlled[component] = true;
-    plan.start.components[component] = components_of(point.stress())[component];
+    plan.start.components[component] = components(point.stress())[component];
     plan.target.components[component] = target;
 }
 
 void hold_stress(StagePlan& plan, std::size_t component, const MaterialPoint& point)
 {
-    control_stress(plan, component, point, components_of(point.stress())[component]);
+    control_stress(plan, component, point, components(point.stress())[component]);
 }
 
 void set_water(StagePlan& plan, const std::optional<double>& suction, const std::optional<double>& saturation)
@@ -51,7 +51,7 @@ struct Planner {
         const double pressure_change = stage.target.value - mean_pressure(point.stress());
         for (const std::size_t c : {xx, yy, zz}) {
             if (stage.target.is_stress)
-                control_stress(plan, c, point, components_of(point.stress())[c] - pressure_change);
+                control_stress(plan, c, point, components(point.stress())[c] - pressure_change);
             else
                 plan.target.components[c] = -stage.target.value / 3.0;
         }
@@ -150,11 +150,6 @@ private:
 };
 
 } // namespace
-
-std::array<double, 6> components_of(const SymmetricTensor<double>& tensor)
-{
-    return {tensor.xx, tensor.yy, tensor.zz, tensor.xy, tensor.yz, tensor.xz};
-}
 
 StageValues StagePlan::at(double way) const
 {

@@ -10,7 +10,6 @@
 namespace periporo {
 
 /// A tensor by its components xx yy zz xy yz xz.
-std::array<double, 6> components_of(const SymmetricTensor<double>& tensor);
 
 /// What is prescribed at one moment.
 struct StageValues {

@@ -71,7 +71,7 @@ bool PointGradients::find_gradient(std::size_t point)
                      inverse,
                  row + gradient_at);
     double* at = row + inverse_shape_at;
-    for (const double c : {inverse.xx, inverse.yy, inverse.zz, inverse.xy, inverse.yz, inverse.xz})
+    for (const double c : components(inverse))
         *at++ = c;
     row[reciprocal_weight_at] = 1.0 / reduce(weights);
     return !any(too_short);

@@ -32,11 +32,10 @@ public:
             double* to = images_.data() + m * stride;
             std::copy_n(from, stride, to);
             const Eigen::Matrix3d& q = neighbourhood.isometries[images[m].isometry].rotation;
-            const SymmetricTensor<double> stress = rotated(
-                SymmetricTensor<double>{from[0], from[1], from[2], from[3], from[4], from[5]},
-                Tensor<double>{q(0, 0), q(0, 1), q(0, 2), q(1, 0), q(1, 1), q(1, 2), q(2, 0), q(2, 1), q(2, 2)});
-            const double components[6] = {stress.xx, stress.yy, stress.zz, stress.xy, stress.yz, stress.xz};
-            std::copy_n(components, 6, to);
+            const SymmetricTensor<double> stress =
+                rotated(symmetric_tensor(from), Tensor<double>{q(0, 0), q(0, 1), q(0, 2), q(1, 0), q(1, 1), q(1, 2),
+                                                               q(2, 0), q(2, 1), q(2, 2)});
+            std::ranges::copy(components(stress), to);
         }
     }
     const double* operator[](std::size_t end) const

@@ -216,7 +216,7 @@ void AbaqusUserMaterial::update_elastically(const MaterialBatch& batch) const
             tensor([&](std::size_t c) { return bond.stress(c); }),
             tensor([&](std::size_t c) { return bond.strain_increment(c); }), bulk_modulus_, shear_modulus_);
         std::size_t c = 0;
-        for (const double component : {stress.xx, stress.yy, stress.zz, stress.xy, stress.yz, stress.xz})
+        for (const double component : components(stress))
             bond.stress(c++) = component;
     }
 }

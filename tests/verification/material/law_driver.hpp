@@ -26,12 +26,6 @@ inline Parameters parameter_values(const std::vector<Parameter>& records, const 
     return kit::parameters_of(records, {given.begin(), given.end()});
 }
 
-/// For comparisons to the last bit.
-inline std::array<double, 6> components(const SymmetricTensor<double>& a)
-{
-    return {a.xx, a.yy, a.zz, a.xy, a.yz, a.xz};
-}
-
 /// Advances a point. @throws std::runtime_error with what the law says when it gives up.
 inline void step(MaterialPoint& point, const Strain& increment, double time_step = 1e-3)
 {

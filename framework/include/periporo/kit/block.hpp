@@ -71,7 +71,7 @@ private:
     static void store(const SymmetricTensor<double>& tensor, Pack* rows, std::size_t lane)
     {
         std::size_t row = 0;
-        for (const double component : {tensor.xx, tensor.yy, tensor.zz, tensor.xy, tensor.yz, tensor.xz})
+        for (const double component : components(tensor))
             rows[row++][lane] = component;
     }
 

@@ -82,7 +82,7 @@ inline std::optional<Cycle> stress_cycle(const MaterialPoint& start, const Range
         }
     }
     const SymmetricTensor<double> back = (start.stress() - point.stress()) * (1.0 / steps);
-    MixedStep home{{true, true, true, true, true, true}, {back.xx, back.yy, back.zz, back.xy, back.yz, back.xz}};
+    MixedStep home{{true, true, true, true, true, true}, components(back)};
     home.time_step = range.time_step;
     home.tolerance = 1e-9 * norm(start.stress());
     for (int step = 0; step < steps; ++step) {
