@@ -40,7 +40,7 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
         Simulation simulation(description, registry, options, interruption, log.logger());
         simulation.prepare(std::move(checkpoint.archive));
         if (options.take_folder)
-            options.take_folder();
+            options.take_folder(simulation.inputs());
         else
             std::filesystem::create_directories(options.directory);
         log.open(options.directory / "run.log", options.resume);

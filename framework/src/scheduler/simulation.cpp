@@ -150,7 +150,7 @@ RunOutcome Simulation::run()
     } catch (const std::exception& error) {
         fail(error.what());
     }
-    write_summary("complete", "");
+    write_summary("complete", outputs_.losses().empty() ? "" : "parts of the results are lost, see \"losses\"");
     remove_checkpoints(options_.directory);
     outputs_.clean_up();
     return RunOutcome::complete;
@@ -195,7 +195,7 @@ RunOutcome Simulation::stop()
     return RunOutcome::interrupted;
 }
 
-RunDescription Simulation::describe_run() const
+RunDescription Simulation::describe_run()
 {
     RunDescription run;
     run.directory = options_.directory;
@@ -204,7 +204,10 @@ RunDescription Simulation::describe_run() const
     run.provenance = provenance(inputs_, options_.threads);
     run.resumed = resumed_;
     run.resumed_step = at_.step;
-    run.warn = [this](const std::string& text) { log_->warn(text); };
+    run.warn = [this](const std::string& text) {
+        log_->warn(text);
+        outputs_.note_loss(text);
+    };
     return run;
 }
 
@@ -231,6 +234,7 @@ void Simulation::restore(ArchiveReader& checkpoint)
     water_.resume(model_, stage);
     dynamics_.hold(held_directions(model_, description_, held_regions_, stage));
     reports_ = parse_reports(at_.stage_reports, checkpoint.file());
+    outputs_.expect_earlier(options_.directory, options_.without_lost);
     checkpoint_step_ = at_.step;
     log_->info("resumed {} stage '{}' at step {}, time {:.6g} s", at_.begun ? "in" : "before",
                description_.stages[at_.stage].name, at_.step, at_.time);
@@ -549,6 +553,8 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
                                        {"crossed_points", contact_.crossed_points().at(c)}});
     summary["outcome"] = outcome;
     summary["message"] = message;
+    if (!outputs_.losses().empty())
+        summary["losses"] = outputs_.losses();
     summary["steps"] = at_.step;
     summary["step_estimates"] = at_.estimates;
     summary["time"] = at_.time;
@@ -557,7 +563,8 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
     summary["point_steps_per_second"] = point_rate;
     summary["provenance"] = provenance(inputs_, options_.threads);
     write_json(summary, options_.directory / "summary.json");
-    log_->info("{}: {} steps, {} wall, {:.3g} point-steps/s, {:.3g} bond-steps/s", outcome, at_.step,
+    const char* lost = outputs_.losses().empty() ? "" : ", but parts of the results are lost";
+    log_->info("{}{}: {} steps, {} wall, {:.3g} point-steps/s, {:.3g} bond-steps/s", outcome, lost, at_.step,
                duration_text(wall_seconds()), point_rate,
                static_cast<double>(model_.families.bonds()) * steps_per_second);
 }

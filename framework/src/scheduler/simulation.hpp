@@ -37,12 +37,14 @@ public:
 
     /// Checks the model and does all that comes before the first step: families, initial stress, stable step; or what a
     /// checkpoint restores. Writes nothing.
-    /// @throws CaseError, ForeignCheckpoint, or ArchiveError
+    /// @throws CaseError, ForeignCheckpoint, ArchiveError, or FolderError when results are gone that the checkpoint
+    /// counts on
     void prepare(std::optional<ArchiveReader> checkpoint = {});
     /// Runs all stages, or those that a checkpoint left over. To be called after prepare().
     RunOutcome run();
 
     const Model& model() const { return model_; }
+    const InputHashes& inputs() const { return inputs_; }
     /// What a user should know of the model as built.
     const std::vector<std::string>& remarks() const { return remarks_; }
     /// The stable step of a dynamic stage, of the model as prepare() leaves it.
@@ -52,7 +54,7 @@ public:
     double seconds_of_a_step(double budget);
 
 private:
-    RunDescription describe_run() const;
+    RunDescription describe_run();
     RunState state(RunPosition& position);
     void restore(ArchiveReader& checkpoint);
     RunOutcome stop();
