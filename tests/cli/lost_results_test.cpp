@@ -302,3 +302,10 @@ TEST_CASE("few file handles and small files are told with the limit to raise, in
         CHECK((result.status == 130 || contains(result.error, "ulimit -f")));
     }
 }
+
+TEST_CASE("a pipe in place of the mark of an empty folder is refused by its name")
+{
+    const RunFolder folder;
+    REQUIRE(::mkfifo((folder.it() / "periporo.run").c_str(), 0600) == 0);
+    RunFolder::check_words(folder.run(twenty_steps, "timeout 30"), {"it/periporo.run is a pipe"});
+}

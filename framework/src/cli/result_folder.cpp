@@ -83,6 +83,11 @@ void check_result_folder(const fs::path& folder, ExistingResults existing, const
             fmt::format("{} does not look like results of periporo and is not deleted: it holds {}; choose "
                         "another --out",
                         folder.string(), there));
+    for (const std::string& name : foreign)
+        if (std::find(of_writers.begin(), of_writers.end(), name) != of_writers.end())
+            throw UsageError(fmt::format("{} was not written by a run, and a writer of this run would replace it; move "
+                                         "it away or choose another --out",
+                                         (folder / name).string()));
     if (existing != ExistingResults::refuse)
         require_sound_entries(folder, of_writers, existing == ExistingResults::resume);
 }

@@ -226,6 +226,11 @@ void FolderLock::lock_folder()
 void FolderLock::lock_mark()
 {
     const fs::path mark = folder_ / run_mark;
+    try {
+        require_regular(mark);
+    } catch (const std::exception& error) {
+        throw FolderError(error.what());
+    }
     do {
         if (mark_ >= 0)
             ::close(mark_);

@@ -126,6 +126,11 @@ std::vector<std::string> OutputSchedule::losses() const
 
 void OutputSchedule::check(std::uint64_t step) const
 {
+    const bool lines = losses_.empty() || (losses_.ends_with('\n') && losses_.front() != '\n' &&
+                                           losses_.find("\n\n") == std::string::npos);
+    const auto is_control = [](char c) { return c != '\n' && static_cast<unsigned char>(c) < ' '; };
+    if (!lines || std::ranges::any_of(losses_, is_control))
+        throw std::runtime_error("the losses that were named are no lines of text");
     for (const Output& output : outputs_) {
         const bool rising = std::ranges::adjacent_find(output.steps, std::greater_equal<>()) == output.steps.end();
         if (output.steps.size() != output.moments.size() || !rising ||
