@@ -136,6 +136,7 @@ TEST_CASE("a case that is not there is wrong input")
 TEST_CASE("check accepts a sound case and writes nothing")
 {
     const CaseFolder folder;
+    folder.write("case.toml", with(small_case, "\"-1 m\"", "0")); // it stands on its floor
     const ProgramResult result = folder.run("check case.toml");
     CHECK(result.status == 0);
     CHECK(result.out == "case.toml: no errors\n");

@@ -168,7 +168,8 @@ private:
                 return text;
         }
         if (included_from != nullptr)
-            diagnostics_.error(*included_from, fmt::format("cannot include {}: {}", file.string(), reason),
+            diagnostics_.error(*included_from,
+                               fmt::format("'include' names \"{}\", which cannot be read: {}", file.string(), reason),
                                "paths are relative to the file that includes");
         else
             diagnostics_.error({source, 0, 0}, "cannot read the case: " + reason);
@@ -187,7 +188,7 @@ private:
         CaseNode base{CaseNode::Table{}, own.place};
         const CaseNode::Array* members = list.array();
         if (members == nullptr)
-            diagnostics_.error(list.place, fmt::format("'include' must be a list of texts, not {}", kind_of(list)),
+            diagnostics_.error(list.place, fmt::format("'include' must be a list of texts, not {}", found_text(list)),
                                "include = [\"base.toml\"]");
         else
             for (const CaseNode& member : *members)
@@ -202,11 +203,21 @@ private:
     {
         if (member.text() == nullptr) {
             diagnostics_.error(member.place,
-                               fmt::format("'include' must be a list of texts, found {}", kind_of(member)));
+                               fmt::format("'include' must be a list of texts, not of {}", found_text(member)));
+            return std::nullopt;
+        }
+        if (member.text()->empty()) {
+            diagnostics_.error(member.place, "'include' names no file: the text is empty", "include = [\"base.toml\"]");
             return std::nullopt;
         }
         const std::filesystem::path path = (file.parent_path() / *member.text()).lexically_normal();
-        const std::filesystem::path canonical = std::filesystem::weakly_canonical(path);
+        std::error_code fault;
+        const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, fault);
+        if (fault) {
+            diagnostics_.error(member.place, fmt::format("'include' names \"{}\", which cannot be read: {}",
+                                                         path.string(), fault.message()));
+            return std::nullopt;
+        }
         if (std::find(chain_.begin(), chain_.end(), canonical) != chain_.end()) {
             diagnostics_.error(member.place, fmt::format("{} includes itself", path.string()),
                                include_chain(canonical));

@@ -8,6 +8,7 @@
 #include "io/run_folder.hpp"
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
+#include "scheduler/duration_checks.hpp"
 #include "scheduler/guards.hpp"
 #include "scheduler/held_points.hpp"
 #include "scheduler/model_checks.hpp"
@@ -66,7 +67,7 @@ nlohmann::json parse_reports(const std::string& text, const std::filesystem::pat
 } // namespace
 
 Simulation::Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
-                       InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log)
+                       InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log, Geometries* geometries)
     : description_(description), registry_(registry), options_(options), interruption_(interruption),
       log_(std::move(log)),
       force_state_(
@@ -76,21 +77,20 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
       outputs_(description, registry), progress_(options.quiet), started_(std::chrono::steady_clock::now()),
       last_checkpoint_(started_)
 {
-    check_size(description, registry);
+    Geometries own(description, registry);
+    Geometries& known = geometries == nullptr ? own : *geometries;
+    check_size(description, registry, known);
     BuiltModel built;
     refuse_failures(description, "", [&] {
-        built = build_model(description, registry, [this](const std::string& body, double fraction) {
+        built = build_model(description, registry, known, [this](const std::string& body, double fraction) {
             progress_.update([&] { return fmt::format("filling body '{}': {:.0f} %", body, 100.0 * fraction); });
         });
     });
     progress_.clear();
     inputs_ = InputHashes::of(description, registry); // after all plugins have loaded what they need
     set_obstacles(built.model, description, description.stages.front());
-    for (const std::string& warning : check_model(built, description, registry))
-        log_->warn(warning);
-    for (std::size_t s = 0; s < description.stages.size(); ++s)
-        refuse_failures(description, fmt::format("stage.{}", s),
-                        [&] { IsometryTable().set_generators(image_generators(description, description.stages[s])); });
+    if (!options.stand_in)
+        check(built, known);
     model_ = std::move(built.model);
     contact_ = ContactForces(std::move(built.contacts));
     water_ = std::move(built.water);
@@ -98,6 +98,22 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
     remarks_ = std::move(built.remarks);
     for (const std::string& remark : remarks_)
         log_->info(remark);
+}
+
+void Simulation::check(const BuiltModel& built, Geometries& geometries)
+{
+    progress_.announce([&] { return fmt::format("looking at {} points", built.model.size()); });
+    std::vector<std::string> suspicions;
+    Refusals refusals(description_);
+    refusals.attempt("", [&] { suspicions = check_model(built, description_, geometries); });
+    for (std::size_t s = 0; s < description_.stages.size(); ++s)
+        refusals.attempt(fmt::format("stage.{}", s), [&] {
+            IsometryTable().set_generators(image_generators(description_, description_.stages[s]));
+        });
+    progress_.clear();
+    refusals.raise();
+    for (const std::string& warning : suspicions)
+        log_->warn(warning);
 }
 
 void Simulation::prepare(std::optional<ArchiveReader> checkpoint)
@@ -110,6 +126,10 @@ void Simulation::prepare(std::optional<ArchiveReader> checkpoint)
             begin_stage();
         check_fields(description_, registry_, model_, *force_state_);
     });
+    progress_.clear();
+    if (!resumed_ && !options_.stand_in)
+        for (const std::string& warning : check_durations(description_, step_of_dynamic_stages()))
+            log_->warn(warning);
 }
 
 RunOutcome Simulation::run()
@@ -154,6 +174,13 @@ RunOutcome Simulation::run()
     remove_checkpoints(options_.directory);
     outputs_.clean_up();
     return RunOutcome::complete;
+}
+
+double Simulation::step_of_dynamic_stages() const
+{
+    const StageDescription& stage = description_.stages[at_.stage];
+    const double damping = is_quasi_static(stage) ? local_damping_factor(stage.damping) : 1.0;
+    return description_.time.step.value_or(at_.time_step / damping);
 }
 
 StableStep Simulation::step_of_motion()
@@ -256,7 +283,9 @@ void Simulation::begin_stage()
     check_rollers(model_, stage);
     enter_stage(stage);
     if (at_.stage == 0) {
+        progress_.announce([&] { return fmt::format("finding the families of {} points", model_.size()); });
         find_first_families(model_, *force_state_);
+        progress_.clear();
         set_initial_stress(model_, *force_state_, description_);
         log_->info("{} points, {} bonds ({:.1f} a point), {:.1f} MB ({:.1f} kB a point)", model_.size(),
                    model_.families.bonds(),
@@ -270,6 +299,7 @@ void Simulation::begin_stage()
     water_.begin_stage(model_, stage);
     dynamics_.book(water_.follow(model_, 0.0));
     dynamics_.start();
+    progress_.announce([] { return std::string("estimating the stable step"); });
     renew_step();
 }
 
@@ -356,6 +386,8 @@ void Simulation::renew_step()
     const double step = given.value_or(stable.step);
     const bool news = std::abs(step - at_.time_step) > 0.1 * at_.time_step;
     at_.time_step = step;
+    if (news)
+        progress_.clear();
     if (news && given)
         log_->info("step {:.4g} s as given; the computed one is {:.4g} s", step, stable.step);
     else if (news)
