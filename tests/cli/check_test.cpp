@@ -51,6 +51,28 @@ std::string warning(const std::string& text)
     return result.error;
 }
 
+/// The small case standing on its floor, so that nothing about it is suspicious.
+const std::string standing = with(small_case, "\"-1 m\"", "0");
+
+/// What `check` says of it with overrides.
+std::string of_standing(const std::string& overrides)
+{
+    const ProgramFolder folder;
+    folder.write("case.toml", standing);
+    return folder.run("check case.toml " + overrides).error;
+}
+
+/// The small case with a plane or a pair in its middle, and another spacing.
+std::string with_boundary(const std::string& boundary, const std::string& spacing)
+{
+    return with(standing, "\"25 mm\"", "\"" + spacing + "\"") + "[[boundary]]\n" + boundary + "\n";
+}
+
+std::string with_symmetry(const std::string& plane, const std::string& spacing)
+{
+    return with_boundary("type = \"symmetry\"\nplane = \"" + plane + "\"", spacing);
+}
+
 const std::string settle = "[[stage]]\nname = \"settle\"\ntype = \"quasi_static\"\n[[stage]]\nname = \"fall\"\n";
 
 } // namespace
@@ -185,7 +207,250 @@ TEST_CASE("what is suspicious is a warning")
                    "softer than a gel"));
     CHECK(contains(warning(with(small_case, "[discretization]", "gravity = [0, 0, 0]\n[discretization]")),
                    "nothing happens in stage 'fall'"));
-    CHECK(contains(warning(small_case.substr(0, small_case.find("[[output]]"))), "there is no [[output]]"));
+    CHECK(warning(standing).empty());
+}
+
+TEST_CASE("without an output the warning says what is lost and what to add")
+{
+    const std::string told = warning(small_case.substr(0, small_case.find("[[output]]")));
+    CHECK(contains(told, "neither snapshots nor a history"));
+    CHECK(contains(told, "  [[output]]\n  writer = \"hdf5\"\n  every = \"20 ms\""));
+}
+
+TEST_CASE("a symmetry plane ends a body or cuts it in the middle, half a spacing from the first points")
+{
+    // Points at 10, 30, 50, 70 and 90 mm.
+    const std::string on_plane = refusal(with_symmetry("x = 50 mm", "20 mm"), "\"x = 50 mm\"");
+    CHECK(contains(on_plane, "25 points of body 'block' lie on the symmetry plane x = 0.05 m"));
+    CHECK(contains(on_plane, "50 lie beyond it, up to 0.04 m"));
+    const std::string beyond = refusal(with_symmetry("x = 30 mm", "10 mm"), "\"x = 30 mm\"");
+    CHECK(contains(beyond, "300 of the 1000 points of body 'block' lie beyond the symmetry plane x = 0.03 m, up to "
+                           "0.025 m"));
+    CHECK(contains(beyond, "400 of its points have no counterpart")); // 300 lie from 30 to 60 mm and have one below 30
+    CHECK(contains(refusal(with_symmetry("x = 9 mm", "25 mm"), "\"x = 9 mm\""), "the nearest at 0.0035 m"));
+    CHECK(contains(warning(with_symmetry("x = 3 mm", "25 mm")), "the nearest at 0.0095 m"));
+    // Its middle and its end are sound.
+    CHECK(warning(with_symmetry("x = 50 mm", "25 mm")).empty());
+    CHECK(warning(with_symmetry("x = 0 mm", "25 mm")).empty());
+}
+
+TEST_CASE("a roller lies half a spacing from the first points")
+{
+    const std::string text = with(standing, "[[stage]]",
+                                  "[[stage]]\nname = \"settle\"\ntype = \"quasi_static\"\nrollers = [\"x = 90 mm\"]\n"
+                                  "[[stage]]");
+    CHECK(contains(refusal(text, "[\"x = 90 mm\"]"), "lie on the roller x = 0.09 m or near to it"));
+    CHECK(warning(with(text, "x = 90 mm", "x = 100 mm")).empty());
+}
+
+TEST_CASE("a periodic cell holds a body, or is filled by it")
+{
+    const auto pair = [](const std::string& plane, const std::string& period) {
+        return with_boundary("type = \"periodic\"\nplane = \"" + plane + "\"\nperiod = \"" + period + "\"", "10 mm");
+    };
+    CHECK(contains(refusal(pair("x = 30 mm", "80 mm"), "\"x = 30 mm\""),
+                   "300 of the 1000 points of body 'block' lie outside"));
+    CHECK(contains(refusal(pair("x = 4 mm", "93 mm"), "\"93 mm\""), "only 0.003 m from each other's images"));
+    CHECK(warning(pair("x = 0 mm", "80 mm")).empty());
+    CHECK(warning(pair("x = 0 mm", "100 mm")).empty());
+}
+
+TEST_CASE("partners that a contact law does not heed")
+{
+    CHECK(contains(refusal(with(standing, "[\"block\"]", "[\"block\", \"block\"]"), "[\"block\", "),
+                   "does nothing between free grains of body 'block'"));
+    const std::string two = with(
+        standing, "[[contact]]",
+        "[body.other]\nmaterial = \"rubber\"\ngeometry = { generator = 'box', size = ['100 mm', '100 mm', '100 mm'], "
+        "origin = [0, 0, '100 mm'] }\n[[contact]]");
+    CHECK(contains(refusal(with(two, "[\"block\"]", "[\"block\", \"other\"]"), "[\"block\", "),
+                   "by it the bodies 'block' and 'other' do not touch each other"));
+    CHECK(contains(refusal(with(standing, "friction = 0.5", "friction = 0.5\ncrossing = \"warn\""), "\"warn\""),
+                   "this contact has none"));
+}
+
+TEST_CASE("a contact that is given twice would count twice, but a law may have several surfaces")
+{
+    const std::size_t begin = standing.find("[[contact]]");
+    const std::string contact = standing.substr(begin, standing.find("[[stage]]") - begin);
+    const auto and_another = [&](const std::string& other) { return with(standing, "[[stage]]", other + "[[stage]]"); };
+    const std::string twice = with(contact, "[\"block\"]", "['block']");
+    CHECK(contains(refusal(and_another(twice), "['block']"), "came before: its forces would count twice"));
+    CHECK(warning(and_another(with(contact, "normal = [0, 0, 1]", "normal = [1, 0, 0]"))).empty());
+}
+
+TEST_CASE("an obstacle that no contact names is not there for any body")
+{
+    const std::string text =
+        with(standing, "[[stage]]",
+             "[obstacle.stone]\ngeometry = { generator = 'box', size = [1, 1, 1], origin = [5, 5, 5] }"
+             "\n[[stage]]");
+    CHECK(contains(warning(text), "no contact names obstacle 'stone'"));
+}
+
+TEST_CASE("a value that looks like a wrong unit is a warning with what it means and what is usual")
+{
+    const auto told = [](const std::string& key, const std::string& value) {
+        const std::string text = of_standing("--set '" + key + "=" + value + "'");
+        CHECK(contains(text, "--set " + key + "=" + value + ": warning: "));
+        return text;
+    };
+    CHECK(contains(told("gravity", "[0,0,-9810]"), "1000 times that of the earth"));
+    CHECK(contains(told("material.rubber.grain_density", "2.2"), "lighter than any mineral"));
+    CHECK(contains(told("material.rubber.grain_density", "2200000"), "heavier than any metal"));
+    // (3 K - 2 G)/(2 (3 K + G)) = (3 - 7.2)/(2 (3 + 3.6)), for K = 1 MPa
+    CHECK(contains(told("material.rubber.shear_modulus", "3.6 MPa"), "Poisson's ratio is -0.318"));
+    // 1 TPa over 1600 kg/m3, under the root
+    CHECK(contains(told("material.rubber.bulk_modulus", "1e12 Pa"), "waves run at 2.5e+04 m/s"));
+    // C dx = 1e11 N/m over (K + 4/3 G) dx
+    CHECK(contains(of_standing("--set 'contact.0.modulus=4e12 Pa'"), "2.4e+06 times that of body 'block'"));
+}
+
+TEST_CASE("a body that hangs higher above its floor than it is high")
+{
+    // (2 g h)^(1/2) over one metre
+    CHECK(contains(warning(small_case), "begins 1 m away from all that it may touch"));
+    CHECK(contains(warning(small_case), "meets it at 4.43 m/s or more"));
+    CHECK(warning(with(small_case, "\"-1 m\"", "\"-80 mm\"")).empty());
+    CHECK(warning(with(small_case, "[[contact]]", "velocity = [0, 0, \"-1 m/s\"]\n[[contact]]")).empty());
+}
+
+TEST_CASE("durations and times that do not fit each other")
+{
+    const auto told = [](const std::string& overrides, const std::string& words) {
+        CAPTURE(overrides);
+        CHECK(contains(of_standing(overrides), words));
+    };
+    const std::string longer = "--set 'stage.0.duration=0.1 s' ";
+    CHECK(of_standing(longer).empty());
+    told(longer + "--set 'output.0.every=1 s'", "output.0.every=1 s: warning: snapshots every 1 s of a run of 0.1 s");
+    told(longer + "--set 'run.history_every=1 s'", "run.history_every=1 s: warning: rows of history every 1 s");
+    told("--set 'output.0.times=[\"1 ms\", \"3 s\", \"4 s\"]'", "no snapshot is stored at 3 s, 4 s");
+    told("--set 'stage.0.duration=1e6 s' --set 'output.0.every=9 s' --set 'output.1.every=9 s'", "e+09 steps of");
+    told("--set 'stage.0.duration=1e-12 s'", "far less than a step");
+}
+
+TEST_CASE("stages without an effect, and a residual that no rounding allows")
+{
+    const std::string two = "name = \"settle\"\ntype = \"quasi_static\"\n[[stage]]\nname = \"again\"\ntype = "
+                            "\"quasi_static\"\n";
+    const std::string repeated = with(standing, "[[stage]]", "[[stage]]\n" + two + "[[stage]]");
+    CHECK(contains(warning(repeated), "stage 'again' does nothing: 'settle' before it has settled"));
+    CHECK(warning(repeated + "[[boundary]]\ntype = \"fixed\"\nplane = \"z = 20 mm\"\nstages = [\"settle\"]\n").empty());
+    const std::string sharp =
+        with(standing, "[[stage]]",
+             "[[stage]]\nname = \"settle\"\ntype = \"quasi_static\"\nuntil = { residual = 1e-30 }\n"
+             "[[stage]]");
+    CHECK(contains(warning(sharp), "double precision does not reach"));
+    const std::string only_settles = with(standing, "name = \"fall\"\ntype = \"dynamic\"\nduration = \"1 ms\"",
+                                          "name = \"settle\"\ntype = \"quasi_static\"");
+    CHECK(
+        contains(warning(only_settles), "there is no dynamic stage, and writer 'hdf5' stores snapshots in those only"));
+}
+
+TEST_CASE("all parts that cannot be built are told at once, in the order of the case")
+{
+    const auto thin = [](const std::string& name, const std::string& width) {
+        return "[body." + name + "]\nmaterial = \"rubber\"\ngeometry = { generator = 'box', size = ['" + width +
+               "', '100 mm', '100 mm'], origin = [1, 0, 0] }\n";
+    };
+    const ProgramFolder folder;
+    folder.write("case.toml",
+                 with(with(with(standing, "material = \"rubber\"\n[[contact]]",
+                                "material = \"rubber\"\nwater = { type = 'field', file = 'a.csv', saturation = "
+                                "0.1 }\n[[contact]]"),
+                           "[[contact]]", thin("one", "0.3 mm") + thin("two", "0.2 mm") + "[[contact]]"),
+                      "[[output]]\nwriter = \"hdf5\"",
+                      "[[stage.water]]\nbody = 'block'\ntype = 'field'\nfile = 'b.csv'\n"
+                      "saturation = 0.2\n[[output]]\nwriter = \"hdf5\""));
+    folder.write("a.csv", "x [m],y [m],z [m],suction [Pa]\n0,0,0,abc\n");
+    folder.write("b.csv", "x [m],y [m],z [m],suction [Pa]\n0,0,0,-5\n");
+    for (const std::string command : {"check case.toml", "run case.toml --quiet --out results"}) {
+        const ProgramResult result = folder.run(command);
+        CAPTURE(result.error);
+        CHECK(result.status == 2);
+        CHECK(contains(result.error, "4 errors; nothing was run"));
+        std::size_t last = 0;
+        for (const char* part :
+             {"a.csv: line 2", "b.csv: line 2", "body 'one': box cannot", "body 'two': box cannot"}) {
+            CAPTURE(part);
+            const std::size_t at = result.error.find(part);
+            REQUIRE(at != std::string::npos);
+            CHECK(at >= last);
+            last = at;
+        }
+    }
+}
+
+TEST_CASE("all that is wrong with a model is told at once")
+{
+    const std::string error =
+        refusal(with(with(with_symmetry("x = 30 mm", "10 mm"), "friction = 0.5", "friction = 1e300"),
+                     "[discretization]", "gravity = [0, 0, 9.81]\n[discretization]"),
+                "\"x = 30 mm\"");
+    CHECK(contains(error, "no surface has that"));
+    CHECK(contains(error, "nothing holds body 'block'"));
+    CHECK(contains(error, "3 errors"));
+}
+
+TEST_CASE("a plugin that refuses a table, one that refuses a mesh and a contact out of place are told at once")
+{
+    const ProgramFolder folder;
+    folder.write("case.toml",
+                 with(with(with(standing, box, "geometry = { generator = 'surface_mesh', file = 'm.stl' }"),
+                           "shear_modulus = \"0.5 MPa\"\n",
+                           "shear_modulus = \"0.5 MPa\"\nretention = { curve = 'table', file = 'c.csv' }\n"),
+                      "[\"block\"]", "[\"block\", \"block\"]"));
+    folder.write("m.stl", "solid x\nfacet nonsense\n");
+    folder.write("c.csv", "suction [Pa],saturation\n0,1\n2000,1.5\n");
+    const std::string error = folder.run("check case.toml").error;
+    CHECK(contains(error, "m.stl: "));
+    CHECK(contains(error, "c.csv: line 3"));
+    CHECK(contains(error, "3 errors"));
+}
+
+TEST_CASE("fields of all writers that there are not")
+{
+    const std::string error =
+        refusal_of_change("writer = \"hdf5\"\n", "writer = \"hdf5\"\nfields = ['veloc', 'nix']\n", "['veloc'");
+    CHECK(contains(error, "there is no field 'veloc'"));
+    CHECK(contains(error, "there is no field 'nix'"));
+}
+
+TEST_CASE("a path that is refused is told with its key")
+{
+    const auto told = [](const std::string& text, const std::string& words) {
+        const ProgramFolder folder;
+        folder.write("case.toml", text);
+        const ProgramResult result = folder.run("check case.toml");
+        CAPTURE(text);
+        CAPTURE(result.error);
+        CHECK(contains(result.error, "case.toml:"));
+        CHECK(contains(result.error, words));
+        return result.status;
+    };
+    CHECK(told("include = 5\n" + standing, "'include' must be a list of texts, not a whole number, 5") == 2);
+    CHECK(told("include = [\"\"]\n" + standing, "'include' names no file: the text is empty") == 2);
+    CHECK(told("include = [\"none.toml\"]\n" + standing, "'include' names \"none.toml\", which cannot be read") == 2);
+    CHECK(told("include = [\"" + std::string(300, 'x') + "\"]\n" + standing, "File name too long") == 2);
+    CHECK(told(standing + "[plugins]\npaths = [\"\"]\n", "'paths' of [plugins] names no folder") == 2);
+    CHECK(told(standing + "[plugins]\npaths = 7\n", "'paths' must be a list of texts, not a whole number, 7") == 2);
+    CHECK(told(standing + "[plugins]\npaths = [\"none\"]\n", "/none") == 0);
+    CHECK(told(with(standing, box, "geometry = { generator = 'surface_mesh', file = '' }"), "'file' names no file") ==
+          2);
+}
+
+TEST_CASE("on a terminal the check shows what it is at")
+{
+    const ProgramFolder folder;
+    folder.write("case.toml", standing);
+    // script(1) gives the program a terminal.
+    folder.write("look.sh", "script -qec \"'" PERIPORO_PROGRAM "' check case.toml\" /dev/null > shown\n");
+    folder.run("--version > /dev/null; sh look.sh");
+    const std::string shown = ProgramFolder::read(folder.path() / "shown");
+    CHECK(contains(shown, "looking at 64 points"));
+    CHECK(contains(shown, "estimating the stable step"));
+    CHECK(contains(shown, "no errors"));
 }
 
 TEST_CASE("a refused run leaves the results that it was to replace")

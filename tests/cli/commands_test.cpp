@@ -53,6 +53,40 @@ TEST_CASE("what the command line does not know is wrong input")
     }
 }
 
+TEST_CASE("a case file that is no UTF-8 is told to be saved as UTF-8")
+{
+    std::string wide = "\xff\xfe", wide_without_mark;
+    for (const char letter : small_case) {
+        wide += {letter, '\0'};
+        wide_without_mark += {letter, '\0'};
+    }
+    for (const std::string& text : {wide, wide_without_mark, "title = \"caf\xe9\"\n" + small_case, small_case + '\0'}) {
+        const ProgramFolder folder;
+        folder.write("case.toml", text);
+        folder.write("includes.toml", "include = [\"case.toml\"]\n");
+        for (const char* name : {"case.toml", "includes.toml"}) {
+            const ProgramResult result = folder.run(std::string("check ") + name);
+            CAPTURE(result.error);
+            CHECK(result.status == 2);
+            CHECK((contains(result.error, "save it as UTF-8") || contains(result.error, "save the file as UTF-8")));
+        }
+    }
+}
+
+TEST_CASE("a number of steps that none is wrong input, in plain words")
+{
+    const CaseFolder folder;
+    for (const std::string steps : {"0", "-1", "abc", "1e3", "1.5", "99999999999999999999999", "''"}) {
+        CAPTURE(steps);
+        const ProgramResult result = folder.run("run case.toml --stop-after " + steps);
+        CAPTURE(result.error);
+        CHECK(result.status == 2);
+        CHECK(contains(result.error, "a whole number from 1"));
+        CHECK(result.error.size() < 200); // no number of 309 digits
+        CHECK(folder.entries() == std::set<std::string>{"case.toml"});
+    }
+}
+
 TEST_CASE("a number of threads that no machine has is wrong input, in the option and in the environment")
 {
     const CaseFolder folder;
@@ -102,6 +136,7 @@ TEST_CASE("a case that is not there is wrong input")
 TEST_CASE("check accepts a sound case and writes nothing")
 {
     const CaseFolder folder;
+    folder.write("case.toml", with(small_case, "\"-1 m\"", "0")); // it stands on its floor
     const ProgramResult result = folder.run("check case.toml");
     CHECK(result.status == 0);
     CHECK(result.out == "case.toml: no errors\n");

@@ -74,6 +74,27 @@ TEST_CASE("a second run into the folder of a run that goes on is refused with th
     CHECK(contains(errors, "--out"));
 }
 
+TEST_CASE("a second run is refused although somebody has deleted or replaced the mark of the first")
+{
+    for (const char* mark : {"rm it/periporo.run", "rm it/periporo.run; : > it/periporo.run"}) {
+        CAPTURE(mark);
+        const CaseFolder folder;
+        folder.write("both.sh", fmt::format("'{0}' {1} {2} &\n"
+                                            "pid=$!\n"
+                                            "while kill -0 $pid && ! [ -s it/history.csv ]; do sleep 0.02; done\n"
+                                            "{3}\n"
+                                            "for more in '' --resume --overwrite; do\n"
+                                            "  '{0}' {1} $more 2>> errors\n"
+                                            "  echo $? >> statuses\n"
+                                            "done\n"
+                                            "kill -TERM $pid\nwait $pid\necho $? >> statuses\n",
+                                            PERIPORO_PROGRAM, run_it, for_long, mark));
+        std::system(("cd '" + folder.path().string() + "' && sh both.sh").c_str());
+        CHECK(ProgramFolder::read(folder.path() / "statuses") == "2\n2\n2\n130\n");
+        CHECK(contains(ProgramFolder::read(folder.path() / "errors"), "another run writes into it"));
+    }
+}
+
 TEST_CASE("the lock of a run that was killed does not stop the next one")
 {
     const CaseFolder folder;

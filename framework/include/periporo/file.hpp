@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace periporo {
 
@@ -42,8 +43,15 @@ void publish(const std::filesystem::path& part, const std::filesystem::path& fil
 /// @throws FileError
 void write_whole(const std::filesystem::path& file, std::string_view content);
 
-/// The content of a file; a symbolic link is not followed. @throws FileError
+/// Throws an error that names a folder, a pipe, a device or a socket where a regular file belongs: opening some of them
+/// waits for ever, and others lose what is written. A file that is not there is no error. @throws std::runtime_error
+void require_regular(const std::filesystem::path& file);
+
+/// The content of a regular file; a symbolic link is not followed. @throws FileError, or as require_regular()
 std::string read_whole(const std::filesystem::path& file);
+
+/// Names of all there is in a folder, sorted. @throws FileError when the folder cannot be read, or is none
+std::vector<std::string> names_in(const std::filesystem::path& folder);
 
 /// Bytes of a file. @throws FileError
 std::uint64_t size_of_file(const std::filesystem::path& file);

@@ -7,6 +7,8 @@
 #include "case/plane.hpp"
 #include "case/table_values.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 
 namespace periporo {
@@ -213,11 +215,16 @@ CaseDescription build_description(const CheckedTable& root)
         description.geometries.push_back({table.name, plugin_choice(table, "generator")});
     for (const CheckedTable& table : root.all("obstacle"))
         description.obstacles.push_back(obstacle_of(table));
-    for (const CheckedTable& table : root.all("boundary")) {
-        if (makes_images(table))
+    for (std::size_t b = 0; b < root.all("boundary").size(); ++b) {
+        const CheckedTable& table = root.all("boundary")[b];
+        const std::string key = fmt::format("boundary.{}", b);
+        if (makes_images(table)) {
             description.boundaries.push_back(boundary_of(table));
-        else
+            description.boundaries.back().key = key;
+        } else {
             description.held_regions.push_back(held_region_of(table));
+            description.held_regions.back().key = key;
+        }
     }
     for (const CheckedTable& table : root.all("contact"))
         description.contacts.push_back({plugin_choice(table, "law"), table.own.text_list("between"),

@@ -214,7 +214,7 @@ private:
     void wrong_shape(const NestedRules& nested, const Place& place, const CaseNode& found)
     {
         diagnostics_.error(place,
-                           fmt::format("'{}' must be {}, not {}", nested.name, shape_text(nested), kind_of(found)),
+                           fmt::format("'{}' must be {}, not {}", nested.name, shape_text(nested), found_text(found)),
                            nested.documentation);
     }
 

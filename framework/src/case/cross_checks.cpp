@@ -10,10 +10,12 @@
 #include "plugins/fit_contact.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -169,6 +171,76 @@ void try_plugins_of(const std::vector<CheckedTable>& tables, const TableRules& r
     }
 }
 
+/// The law, or null when its plugin refuses the parameters.
+std::shared_ptr<Contact> made(const PluginRegistry& registry, const std::string& name, const Parameters& parameters)
+{
+    try {
+        return registry.make_contact(name, parameters);
+    } catch (const std::exception&) {
+        return nullptr;
+    }
+}
+
+/// Partners and keys that a law would not heed.
+/// @param own_surface does the law bring one along?
+void check_partners(const CheckedTable& contact, const std::string& law, bool own_surface,
+                    const std::vector<std::string>& obstacles, Diagnostics& diagnostics)
+{
+    const auto& between = *value_of<std::vector<std::string>>(contact, "between");
+    const auto is_obstacle = [&](const std::string& name) { return contains(obstacles, name); };
+    const bool some_obstacle = std::ranges::any_of(between, is_obstacle);
+    if (own_surface && !some_obstacle && between.size() == 2) {
+        const bool one_body = between.front() == between.back();
+        diagnostics.error(
+            contact.place_of("between"),
+            one_body ? fmt::format("law '{}' brings a surface of its own and does nothing between free grains of body "
+                                   "'{}'",
+                                   law, between.front())
+                     : fmt::format("law '{}' brings a surface of its own: by it the bodies '{}' and '{}' do not touch "
+                                   "each other",
+                                   law, between.front(), between.back()),
+            fmt::format("between = [\"{}\"] meets the surface; bodies and free grains meet by a law between points, "
+                        "like \"short_range\"",
+                        between.front()));
+    }
+    // A resolved case names the default too.
+    if (*value_of<std::string>(contact, "crossing") == "warn" && !some_obstacle)
+        diagnostics.error(contact.place_of("crossing"),
+                          "'crossing' says what happens at an obstacle, and this contact has none",
+                          "leave 'crossing' out");
+}
+
+/// What one contact does a second time counts twice: stiffness, friction and dashpot.
+void check_repeated_contacts(const CheckedTable& root, Diagnostics& diagnostics)
+{
+    const auto pair_of = [](const CheckedTable& contact) {
+        std::vector<std::string> pair = *value_of<std::vector<std::string>>(contact, "between");
+        std::ranges::sort(pair);
+        return pair;
+    };
+    const auto surface_of = [](const CheckedTable& contact) {
+        const auto* surface = value_of<std::string>(contact, "surface");
+        return surface == nullptr ? std::string() : *surface;
+    };
+    const std::vector<CheckedTable>& contacts = root.all("contact");
+    for (auto contact = contacts.begin(); contact != contacts.end(); ++contact)
+        for (auto before = contacts.begin(); before != contact; ++before) {
+            const bool same_law = *value_of<std::string>(*before, "law") == *value_of<std::string>(*contact, "law");
+            // One body may meet several surfaces of a law's own.
+            const bool same_place = pair_of(*contact).size() == 2 ? surface_of(*before) == surface_of(*contact)
+                                                                  : before->plugin.values() == contact->plugin.values();
+            if (!same_law || !same_place || pair_of(*before) != pair_of(*contact))
+                continue;
+            diagnostics.error(contact->place_of("between"),
+                              fmt::format("a [[contact]] of law '{}' between {} came before: its forces would count "
+                                          "twice",
+                                          *value_of<std::string>(*contact, "law"),
+                                          fmt::join(pair_of(*contact), " and ")),
+                              "keep one of them");
+            break;
+        }
+}
+
 } // namespace
 
 void check_together(const CheckedTable& root, Diagnostics& diagnostics)
@@ -201,12 +273,17 @@ void try_contacts(const CheckedTable& root, const PluginRegistry& registry, Diag
             std::ranges::any_of(between, [&](const std::string& name) { return contains(obstacles, name); });
         const Parameters trial = contact.plugin;
         const std::string& name = *value_of<std::string>(contact, "law");
+        const std::shared_ptr<Contact> law = made(registry, name, trial);
+        if (law == nullptr)
+            continue;
         try {
-            fit_contact(*registry.make_contact(name, trial), spacing, horizon, surfaces);
+            fit_contact(*law, spacing, horizon, surfaces);
         } catch (const std::exception& fault) {
             diagnostics.error(contact.place, fault.what(), fmt::format("contact '{}' cannot act here", name));
         }
+        check_partners(contact, name, law->surface() != nullptr, obstacles, diagnostics);
     }
+    check_repeated_contacts(root, diagnostics);
 }
 
 } // namespace periporo

@@ -15,8 +15,8 @@ void check_together(const CheckedTable& root, Diagnostics& diagnostics);
 /// table that chose the plugin. Only for a case without other errors.
 void try_plugins(const CheckedTable& root, const PluginRegistry& registry, Diagnostics& diagnostics);
 
-/// Makes every contact law of a case once more, in its place: what it cannot do there is an error of the case. Only for
-/// a case without other errors.
+/// Makes every contact law of a case once more, in its place: what it cannot do there, or does not do there, is an
+/// error of the case. Laws that their plugin refuses are left to try_plugins(). Only for a case without other errors.
 void try_contacts(const CheckedTable& root, const PluginRegistry& registry, Diagnostics& diagnostics);
 
 } // namespace periporo

@@ -109,6 +109,7 @@ struct BoundaryDescription {
     std::string type;       ///< "symmetry" or "periodic"
     PlaneDescription plane; ///< of a symmetry; the lower side of a periodic pair
     double period = 0.0;    ///< distance between the sides of a periodic pair [m]
+    std::string key;        ///< of its place, "boundary.0"
 };
 
 /// Points with a prescribed motion. Every condition that is given must hold at the start of the run.
@@ -121,6 +122,7 @@ struct HeldRegionDescription {
     Vector3 direction = Vector3::Zero();   ///< of a roller, a unit vector: the points do not move along it
     Vector3 velocity = Vector3::Zero();    ///< of a moving region [m/s]
     std::vector<std::string> stages;       ///< in which the points are held; empty: all
+    std::string key;                       ///< of its place, "boundary.0"
 };
 
 /// A rigid thing that bodies touch.

@@ -135,7 +135,7 @@ void Diagnostics::raise() const
 std::string naming_hint(const std::string& wanted, const std::vector<std::string>& known, const std::string& what)
 {
     if (known.empty())
-        return fmt::format("there is no {}", what);
+        return fmt::format("there are no {}", what);
     const std::optional<std::string> nearest = nearest_name(wanted, known);
     return fmt::format("{}{}: {}", nearest ? fmt::format("did you mean '{}'?\n", *nearest) : "", what,
                        fmt::join(known, ", "));

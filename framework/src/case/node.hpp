@@ -4,6 +4,8 @@
 // What was written in a case, as a tree in which everything knows its place. No TOML library beyond this point.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -79,6 +81,19 @@ inline std::string kind_of(const CaseNode& node)
     static constexpr const char* kinds[] = {"a number",       "a whole number", "true or false", "a text",
                                             "a date or time", "a list",         "a table"};
     return kinds[node.value.index()];
+}
+
+/// The same with the value, where it is short: "a text, \"sand\"".
+inline std::string found_text(const CaseNode& node)
+{
+    const std::string kind = kind_of(node);
+    if (const auto* number = std::get_if<double>(&node.value))
+        return fmt::format("{}, {}", kind, *number);
+    if (const auto* whole = std::get_if<std::int64_t>(&node.value))
+        return fmt::format("{}, {}", kind, *whole);
+    if (const auto* boolean = std::get_if<bool>(&node.value))
+        return fmt::format("{}, {}", kind, *boolean);
+    return node.text() == nullptr ? kind : fmt::format("{}, \"{}\"", kind, *node.text());
 }
 
 } // namespace periporo

@@ -92,7 +92,7 @@ private:
             return enter_table(node, keys, depth);
         if (node.array() != nullptr && depth > 0)
             return enter_list(*node.array(), keys[depth], keys[depth - 1]);
-        fail(fmt::format("'{}' holds {} and has no '{}'", keys[depth - 1], kind_of(node), keys[depth]), {});
+        fail(fmt::format("'{}' holds {} and has no '{}'", keys[depth - 1], found_text(node), keys[depth]), {});
         return nullptr;
     }
 

@@ -4,6 +4,7 @@
 // Where a case says that further plugins are.
 #pragma once
 
+#include "case/diagnostics.hpp"
 #include "case/node.hpp"
 
 #include <filesystem>
@@ -12,7 +13,8 @@
 namespace periporo {
 
 /// Makes the paths of [plugins] absolute, each relative to the file it was written in (an override: to the current
-/// folder), and returns them. What is not a list of texts is left for the check to report.
-std::vector<std::filesystem::path> resolve_plugin_paths(CaseNode& root);
+/// folder), and returns them. A path that is no folder is a warning: plugins of it will be missed. What is not a list
+/// of texts is left for the check to report.
+std::vector<std::filesystem::path> resolve_plugin_paths(CaseNode& root, Diagnostics& diagnostics);
 
 } // namespace periporo

@@ -21,13 +21,12 @@ CaseDescription read_case(const std::filesystem::path& file, const CaseOptions& 
     std::vector<std::filesystem::path> files_read;
     CaseNode root = read_toml_files(file, diagnostics, &files_read);
     apply_overrides(root, options.overrides, case_rules(), diagnostics);
-    registry.load_folders(plugin_search_path(options.command_line_plugins, resolve_plugin_paths(root)));
+    registry.load_folders(plugin_search_path(options.command_line_plugins, resolve_plugin_paths(root, diagnostics)));
 
     const CheckedTable checked = check_case(root, registry, diagnostics);
     check_together(checked, diagnostics);
     diagnostics.raise();
     try_plugins(checked, registry, diagnostics);
-    diagnostics.raise();
     try_contacts(checked, registry, diagnostics);
     diagnostics.raise();
 

@@ -49,6 +49,33 @@ void refuse_failures(const CaseDescription& description, const std::string& key,
     }
 }
 
+bool Refusals::attempt(const std::string& key, const std::function<void()>& work)
+{
+    try {
+        work();
+        return true;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const CaseError& error) {
+        keep(error);
+    } catch (const std::exception& error) {
+        keep(refusal(description_, key, error.what()));
+    }
+    return false;
+}
+
+void Refusals::keep(const CaseError& error)
+{
+    diagnostics_.insert(diagnostics_.end(), error.diagnostics().begin(), error.diagnostics().end());
+    text_ += error.what();
+}
+
+void Refusals::raise() const
+{
+    if (!diagnostics_.empty())
+        throw CaseError(diagnostics_, text_);
+}
+
 std::string suspicion(const CaseDescription& description, const std::string& key, const std::string& message)
 {
     return fmt::format("{}: warning: {}", place_of(description, key), message);

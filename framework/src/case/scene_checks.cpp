@@ -61,11 +61,23 @@ void check_name(const CheckedTable& table, const std::string& key, const Texts& 
                           naming_hint(*name, known, fmt::format("{} of the case", word.many)));
 }
 
+/// Is an obstacle named by a contact?
+bool is_touched(const CheckedTable& root, const std::string& obstacle)
+{
+    return std::ranges::any_of(root.all("contact"), [&](const CheckedTable& contact) {
+        const auto* between = value_of<Texts>(contact, "between");
+        return between == nullptr || contains(*between, obstacle);
+    });
+}
+
 void check_obstacles(const CheckedTable& root, const Names& names, Diagnostics& diagnostics)
 {
     for (const CheckedTable& obstacle : root.all("obstacle")) {
         check_names_in_list(obstacle, "moves_in", names.stages, stage_word, diagnostics);
         check_names_in_list(obstacle, "stages", names.stages, stage_word, diagnostics);
+        if (!is_touched(root, obstacle.name))
+            diagnostics.warning(obstacle.place,
+                                fmt::format("no contact names obstacle '{}': bodies pass through it", obstacle.name));
         if (contains(names.bodies, obstacle.name))
             diagnostics.error(obstacle.place, fmt::format("a body has the name '{}' too", obstacle.name),
                               "contacts name bodies and obstacles: their names must differ");

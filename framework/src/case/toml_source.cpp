@@ -108,6 +108,16 @@ std::string objection_to_file(const std::filesystem::path& file)
     return error ? error.message() : std::string();
 }
 
+/// What a text is not that a case file has to be, or an empty text.
+std::string objection_to_text(std::string_view text)
+{
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        return "it is written in UTF-16; save it as UTF-8";
+    if (text.find('\0') != std::string_view::npos)
+        return "it holds NUL bytes and is no text, or a text in UTF-16 or UTF-32; save it as UTF-8";
+    return {};
+}
+
 /// Follows includes depth first and remembers the chain it came along. A file that is included several times is read
 /// once.
 class FileReader {
@@ -134,7 +144,9 @@ public:
             const toml::table table = toml::parse(std::string_view(*text));
             own = convert(table, source);
         } catch (const toml::parse_error& error) {
-            diagnostics_.error(place_of(error.source(), source), std::string(error.description()));
+            const bool encoding = error.description().find("utf-8") != std::string_view::npos;
+            diagnostics_.error(place_of(error.source(), source), std::string(error.description()),
+                               encoding ? "save the file as UTF-8" : "");
             return std::nullopt;
         }
         own->place = {source, 0, 0};
@@ -150,12 +162,14 @@ private:
         std::string reason = objection_to_file(file);
         if (reason.empty()) {
             std::ifstream stream(file, std::ios::binary);
-            if (stream)
-                return std::string(std::istreambuf_iterator<char>(stream), {});
-            reason = "it cannot be opened";
+            std::string text(std::istreambuf_iterator<char>(stream), {});
+            reason = stream.is_open() ? objection_to_text(text) : "it cannot be opened";
+            if (reason.empty())
+                return text;
         }
         if (included_from != nullptr)
-            diagnostics_.error(*included_from, fmt::format("cannot include {}: {}", file.string(), reason),
+            diagnostics_.error(*included_from,
+                               fmt::format("'include' names \"{}\", which cannot be read: {}", file.string(), reason),
                                "paths are relative to the file that includes");
         else
             diagnostics_.error({source, 0, 0}, "cannot read the case: " + reason);
@@ -174,7 +188,7 @@ private:
         CaseNode base{CaseNode::Table{}, own.place};
         const CaseNode::Array* members = list.array();
         if (members == nullptr)
-            diagnostics_.error(list.place, fmt::format("'include' must be a list of texts, not {}", kind_of(list)),
+            diagnostics_.error(list.place, fmt::format("'include' must be a list of texts, not {}", found_text(list)),
                                "include = [\"base.toml\"]");
         else
             for (const CaseNode& member : *members)
@@ -189,11 +203,21 @@ private:
     {
         if (member.text() == nullptr) {
             diagnostics_.error(member.place,
-                               fmt::format("'include' must be a list of texts, found {}", kind_of(member)));
+                               fmt::format("'include' must be a list of texts, not of {}", found_text(member)));
+            return std::nullopt;
+        }
+        if (member.text()->empty()) {
+            diagnostics_.error(member.place, "'include' names no file: the text is empty", "include = [\"base.toml\"]");
             return std::nullopt;
         }
         const std::filesystem::path path = (file.parent_path() / *member.text()).lexically_normal();
-        const std::filesystem::path canonical = std::filesystem::weakly_canonical(path);
+        std::error_code fault;
+        const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, fault);
+        if (fault) {
+            diagnostics_.error(member.place, fmt::format("'include' names \"{}\", which cannot be read: {}",
+                                                         path.string(), fault.message()));
+            return std::nullopt;
+        }
         if (std::find(chain_.begin(), chain_.end(), canonical) != chain_.end()) {
             diagnostics_.error(member.place, fmt::format("{} includes itself", path.string()),
                                include_chain(canonical));

@@ -82,7 +82,8 @@ private:
     template <class Value>
     std::optional<Value> wrong_type(const CaseNode& node, const char* expected, std::string hint)
     {
-        diagnostics_.error(node.place, fmt::format("'{}' must be {}, not {}", parameter_.name, expected, kind_of(node)),
+        diagnostics_.error(node.place,
+                           fmt::format("'{}' must be {}, not {}", parameter_.name, expected, found_text(node)),
                            hint.empty() ? describe(parameter_) : std::move(hint));
         return std::nullopt;
     }
@@ -169,6 +170,11 @@ std::optional<ParameterValue> read_type(const CaseNode& node, const Parameter& p
 /// Full path of the file that a text names; nothing, and an error, when there is none.
 std::optional<ParameterValue> existing_file(const CaseNode& node, const Parameter& parameter, Diagnostics& diagnostics)
 {
+    if (node.text()->empty()) {
+        diagnostics.error(node.place, fmt::format("'{}' names no file: the text is empty", parameter.name),
+                          describe(parameter));
+        return std::nullopt;
+    }
     const std::filesystem::path& writer = node.place.source->file; // none for an override: the working folder counts
     const std::filesystem::path file =
         std::filesystem::absolute(writer.parent_path() / *node.text()).lexically_normal();

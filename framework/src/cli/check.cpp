@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <unistd.h>
 
 namespace periporo::cli {
 
@@ -23,7 +24,7 @@ void add_check_command(CLI::App& program, Action& action)
         action = [arguments] {
             PluginRegistry registry;
             const CaseDescription description = read_case_loudly(*arguments, registry);
-            for (const std::string& warning : check_case(description, registry))
+            for (const std::string& warning : check_case(description, registry, isatty(STDERR_FILENO) == 0))
                 fmt::print(stderr, "{}", warning);
             fmt::print("{}: no errors\n", arguments->file.string());
             return ExitStatus::done;

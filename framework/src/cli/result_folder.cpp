@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace periporo::cli {
@@ -28,20 +29,20 @@ std::string list_of(const std::vector<std::string>& names)
                        shown < names.size() ? fmt::format(" and {} more", names.size() - shown) : "");
 }
 
-/// A run writes to the folder that it was given, and not to where links in it lead.
-void require_no_links(const fs::path& folder)
+/// Where a path leads, and where it stands itself: a link may lead into a folder, or out of it.
+std::vector<fs::path> places_of(const fs::path& file)
 {
-    for (const std::string& name : names_of_run(folder))
-        if (fs::is_symlink(folder / name))
-            throw UsageError(fmt::format("{} is a symbolic link, which a run does not follow; put the file itself in "
-                                         "its place, or delete the link",
-                                         (folder / name).string()));
+    std::error_code ignored;
+    const fs::path whole = fs::absolute(file, ignored);
+    return {fs::weakly_canonical(whole, ignored),
+            fs::weakly_canonical(whole.parent_path(), ignored) / whole.filename()};
 }
 
-void delete_run(const fs::path& folder)
+/// The name in a folder below which a place lies; empty when it lies elsewhere.
+std::string name_below(const fs::path& folder, const fs::path& place)
 {
-    for (const std::string& name : names_of_run(folder))
-        fs::remove_all(folder / name); // a link is deleted, and not what it points to
+    const fs::path way = place.lexically_relative(folder);
+    return way.empty() || *way.begin() == ".." || *way.begin() == "." ? std::string() : way.begin()->string();
 }
 
 } // namespace
@@ -56,15 +57,17 @@ fs::path default_result_folder(const fs::path& case_file)
     return fs::path("results") / name;
 }
 
-void check_result_folder(const fs::path& folder, ExistingResults existing)
+void check_result_folder(const fs::path& folder, ExistingResults existing, const std::vector<std::string>& of_writers)
 {
-    if (fs::exists(folder) && !fs::is_directory(folder))
+    std::error_code ignored;
+    if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
         throw UsageError(fmt::format("{} is a file, not a folder for results; choose another --out", folder.string()));
     require_no_run_in(folder);
-    const std::vector<std::string> foreign = foreign_names(folder);
-    const bool nothing_of_run = names_of_run(folder).empty(); // but perhaps its mark
-    const bool empty = nothing_of_run && foreign.empty();
+    const std::vector<std::string> foreign = foreign_names(folder, of_writers);
+    const std::vector<std::string> of_run = names_of_run(folder, of_writers);
+    const bool empty = of_run.empty() && foreign.empty(); // but perhaps the mark of a run
     const bool run_there = !empty && holds_run(folder);
+    const std::string there = list_of(foreign.empty() ? of_run : foreign);
     if (existing == ExistingResults::resume && !run_there)
         throw UsageError(fmt::format("{} holds no run to resume; leave --resume out to start one{}", folder.string(),
                                      empty ? "" : ", in a folder of its own by --out DIR"));
@@ -72,26 +75,49 @@ void check_result_folder(const fs::path& folder, ExistingResults existing)
         throw UsageError(run_there ? fmt::format("{} is not empty; --resume goes on with the run there, --overwrite "
                                                  "deletes it, --out DIR writes elsewhere",
                                                  folder.string())
-                                   : fmt::format("{} is not empty and holds no run of periporo but {}; choose another "
+                                   : fmt::format("{} is not empty: it holds no run of periporo but {}; choose another "
                                                  "--out",
-                                                 folder.string(), list_of(foreign)));
+                                                 folder.string(), there));
     if (existing == ExistingResults::overwrite && !empty && !run_there)
         throw UsageError(
             fmt::format("{} does not look like results of periporo and is not deleted: it holds {}; choose "
                         "another --out",
-                        folder.string(), list_of(foreign.empty() ? names_of_run(folder) : foreign)));
-    if (existing == ExistingResults::resume)
-        require_no_links(folder);
+                        folder.string(), there));
+    for (const std::string& name : foreign)
+        if (std::find(of_writers.begin(), of_writers.end(), name) != of_writers.end())
+            throw UsageError(fmt::format("{} was not written by a run, and a writer of this run would replace it; move "
+                                         "it away or choose another --out",
+                                         (folder / name).string()));
+    if (existing != ExistingResults::refuse)
+        require_sound_entries(folder, of_writers, existing == ExistingResults::resume);
 }
 
-FolderLock take_result_folder(const fs::path& folder, ExistingResults existing)
+void require_no_input_in(const fs::path& folder, const std::vector<fs::path>& inputs,
+                         const std::vector<std::string>& of_writers)
 {
-    check_result_folder(folder, existing);
+    std::error_code ignored;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(folder, ignored), ignored);
+    const std::vector<std::string> deleted = names_of_run(folder, of_writers);
+    for (const fs::path& input : inputs)
+        for (const fs::path& place : places_of(input))
+            if (const std::string name = name_below(whole, place);
+                !name.empty() && std::find(deleted.begin(), deleted.end(), name) != deleted.end())
+                throw UsageError(
+                    fmt::format("--overwrite would delete {}, which this case reads; move it out of {}, or "
+                                "choose another --out",
+                                input.string(), folder.string()));
+}
+
+FolderLock take_result_folder(const fs::path& folder, ExistingResults existing,
+                              const std::vector<std::string>& of_writers)
+{
+    check_result_folder(folder, existing, of_writers);
     FolderLock lock(folder);
     if (existing == ExistingResults::overwrite) {
-        if (const std::vector<std::string> foreign = foreign_names(folder); !foreign.empty())
+        const std::vector<std::string> foreign = foreign_names(folder, of_writers);
+        if (!foreign.empty())
             fmt::print(stderr, "{}: left alone, since no run wrote it: {}\n", folder.string(), list_of(foreign));
-        delete_run(folder);
+        delete_run(folder, of_writers);
     }
     return lock;
 }

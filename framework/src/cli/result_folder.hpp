@@ -7,6 +7,8 @@
 #include "io/run_folder.hpp"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace periporo::cli {
 
@@ -21,12 +23,19 @@ enum class ExistingResults {
 std::filesystem::path default_result_folder(const std::filesystem::path& case_file);
 
 /// Makes sure that results may be written to `folder`. Makes and deletes nothing.
+/// @param of_writers names that the writers of the case make
 /// @throws UsageError or FolderError with a way out.
-void check_result_folder(const std::filesystem::path& folder, ExistingResults existing);
+void check_result_folder(const std::filesystem::path& folder, ExistingResults existing,
+                         const std::vector<std::string>& of_writers);
+
+/// Keeps --overwrite from deleting what the case reads. @throws UsageError naming the input
+void require_no_input_in(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs,
+                         const std::vector<std::string>& of_writers);
 
 /// Checks the folder again, and keeps it for this run as long as the lock lives. With `overwrite` deletes what a run
 /// wrote there and nothing else: files of somebody else stay, and are named on standard error.
 /// @throws UsageError or FolderError with a way out; nothing is changed then.
-FolderLock take_result_folder(const std::filesystem::path& folder, ExistingResults existing);
+FolderLock take_result_folder(const std::filesystem::path& folder, ExistingResults existing,
+                              const std::vector<std::string>& of_writers);
 
 } // namespace periporo::cli

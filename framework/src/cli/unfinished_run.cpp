@@ -7,8 +7,10 @@
 #include "cli/exit_status.hpp"
 #include "io/case_difference.hpp"
 #include "io/checkpoint.hpp"
+#include "scheduler/earlier_results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <fstream>
@@ -36,25 +38,47 @@ std::string outcome_of(const fs::path& folder)
 
 } // namespace
 
-void require_unfinished_run(const fs::path& folder, const std::string& resolved_case)
+void require_unfinished_run(const fs::path& folder, const CaseDescription& description, const PluginRegistry& registry)
 {
     const std::string outcome = outcome_of(folder);
-    if (outcome == "complete")
-        throw UsageError(fmt::format("the run in {} is already complete, there is nothing to resume; --overwrite runs "
-                                     "it anew, --out DIR writes elsewhere",
-                                     folder.string()));
+    const std::string written = text_of(folder / "case.toml"); // none yet when the run was killed in its first moments
+    if (outcome == "complete") {
+        std::vector<std::string> gone;
+        if (written == description.resolved) // another case may have other writers
+            gone = earlier_results(description, registry, folder).missing;
+        throw UsageError(
+            fmt::format("the run in {} is already complete, {}; --overwrite runs it anew, --out DIR writes "
+                        "elsewhere",
+                        folder.string(),
+                        gone.empty() ? "there is nothing to resume"
+                                     : fmt::format("but {} is gone or damaged", fmt::join(gone, ", "))));
+    }
     if (has_checkpoint(folder))
         return;
-    if (outcome == "failed")
-        throw UsageError(
-            fmt::format("the run in {} failed before its first checkpoint; --overwrite runs it anew, --out "
-                        "DIR writes elsewhere",
-                        folder.string()));
-    const std::string written = text_of(folder / "case.toml"); // none yet when the run was killed in its first moments
-    if (!written.empty() && written != resolved_case)
+    if (!written.empty() && written != description.resolved)
         throw UsageError(fmt::format("{} holds the run of another case or with other --set values: {}; run the case "
                                      "that it was started with, or start anew with --overwrite",
-                                     folder.string(), case_difference(written, resolved_case)));
+                                     folder.string(), case_difference(written, description.resolved)));
+    const EarlierResults earlier = earlier_results(description, registry, folder);
+    if (earlier.complete)
+        throw UsageError(
+            fmt::format("the run in {} is already complete, as its results say, but its summary.json is {}; "
+                        "nothing is changed; --overwrite runs it anew, --out DIR writes elsewhere",
+                        folder.string(),
+                        !fs::exists(folder / "summary.json") ? "missing"
+                        : outcome.empty()                    ? "damaged"
+                                                             : fmt::format("of a run that was {}", outcome)));
+    if (outcome == "failed")
+        throw UsageError(fmt::format("the run in {} failed before its first checkpoint, or its checkpoints have been "
+                                     "deleted; --overwrite runs it anew, --out DIR writes elsewhere",
+                                     folder.string()));
+    if (!outcome.empty() || !earlier.holds.empty())
+        throw UsageError(fmt::format(
+            "{} holds no checkpoint to go on from, but a run was there: {}; bring the checkpoint back, write elsewhere "
+            "with --out DIR, or start anew with --overwrite, which deletes these results",
+            folder.string(),
+            earlier.holds.empty() ? fmt::format("its summary.json says {}", outcome)
+                                  : fmt::format("{}", fmt::join(earlier.holds, ", "))));
 }
 
 } // namespace periporo::cli

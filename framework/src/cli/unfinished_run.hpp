@@ -4,15 +4,18 @@
 // Keeps --resume from touching what is no unfinished run of the case.
 #pragma once
 
+#include "case/description.hpp"
+#include "plugins/registry.hpp"
+
 #include <filesystem>
-#include <string>
 
 namespace periporo::cli {
 
 /// Looks at the run in a folder that check_result_folder() has let pass, and changes nothing. A checkpoint is looked at
 /// later, by find_checkpoint().
-/// @throws UsageError with a way out when the run is complete or failed before its first checkpoint, or, without a
-/// checkpoint, is of another case
-void require_unfinished_run(const std::filesystem::path& folder, const std::string& resolved_case);
+/// @throws UsageError with a way out when the run is complete, by its summary or by its results; or when it has no
+/// checkpoint and is of another case, has failed, or has left results that a new run would replace
+void require_unfinished_run(const std::filesystem::path& folder, const CaseDescription& description,
+                            const PluginRegistry& registry);
 
 } // namespace periporo::cli

@@ -53,7 +53,7 @@ PathDescription read_path(const std::filesystem::path& file, const CaseOptions& 
     Diagnostics diagnostics;
     CaseNode root = read_toml_files(file, diagnostics);
     apply_overrides(root, options.overrides, path_rules({}), diagnostics);
-    registry.load_folders(plugin_search_path(options.command_line_plugins, resolve_plugin_paths(root)));
+    registry.load_folders(plugin_search_path(options.command_line_plugins, resolve_plugin_paths(root, diagnostics)));
 
     const std::optional<std::vector<StateVariable>> state_variables = state_variables_of(root, registry);
     if (!state_variables)

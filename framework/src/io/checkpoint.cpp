@@ -5,10 +5,16 @@
 #include "io/checkpoint.hpp"
 
 #include "io/case_difference.hpp"
+#include "io/run_folder.hpp"
 #include "periporo/file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
 
 namespace periporo {
 namespace {
@@ -16,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-const std::string format = "periporo checkpoint 9";
+const std::string format = "periporo checkpoint 10";
 /// The name of checkpoints up to format 7.
 constexpr const char* old_name = "checkpoint.h5";
 constexpr std::size_t longest_case = std::size_t{64} << 20; ///< [bytes]
@@ -26,6 +32,29 @@ constexpr std::size_t longest_case = std::size_t{64} << 20; ///< [bytes]
     throw ForeignCheckpoint(fmt::format("{} was written by another version of the program; start anew with "
                                         "--overwrite, or go on with the program that wrote it",
                                         file.string()));
+}
+
+/// A checkpoint that the system does not let a run read may be sound: neither is it set aside, nor is an older one
+/// used.
+/// @throws FolderError
+void require_readable(const fs::path& file)
+{
+    require_regular(file);
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0 && errno != EIO)
+        throw FolderError(FileError("cannot read", file, errno).what());
+    if (descriptor >= 0)
+        ::close(descriptor);
+}
+
+/// Is there an entry of this name? @throws FolderError when the folder cannot be looked into
+bool is_there(const fs::path& file)
+{
+    std::error_code error;
+    const bool there = fs::exists(fs::symlink_status(file, error));
+    if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+        throw FolderError(FileError("cannot read", file, error.value()).what());
+    return there;
 }
 
 /// @throws ForeignCheckpoint
@@ -57,16 +86,17 @@ void write_checkpoint(const fs::path& folder, const std::string& resolved_case,
 
 bool has_checkpoint(const fs::path& folder)
 {
-    return fs::exists(folder / checkpoint_name) || fs::exists(folder / previous_checkpoint_name) ||
-           fs::exists(folder / old_name);
+    return is_there(folder / checkpoint_name) || is_there(folder / previous_checkpoint_name) ||
+           is_there(folder / old_name);
 }
 
 FoundCheckpoint find_checkpoint(const fs::path& folder, const std::string& resolved_case)
 {
     FoundCheckpoint found;
     for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
-        if (!fs::exists(folder / name))
+        if (!is_there(folder / name))
             continue;
+        require_readable(folder / name);
         try {
             ArchiveReader archive(folder / name);
             require_same_run(archive, resolved_case);
@@ -79,7 +109,7 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, const std::string& resol
     if (!found.refused.empty())
         throw ArchiveError(
             fmt::format("no checkpoint can be used: {}; start anew with --overwrite", fmt::join(found.refused, "; ")));
-    if (fs::exists(folder / old_name))
+    if (is_there(folder / old_name))
         refuse_version(folder / old_name);
     return found;
 }

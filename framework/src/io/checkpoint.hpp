@@ -46,6 +46,7 @@ struct FoundCheckpoint {
 /// @throws ForeignCheckpoint when the checkpoint was written by another version of the program, or for another case: it
 /// names the first key that differs
 /// @throws ArchiveError naming both files when both are damaged
+/// @throws FolderError when the system does not let the newest one be read
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const std::string& resolved_case);
 
 /// Renames a newest checkpoint that was refused, so that it does not take the place of the previous, sound one.

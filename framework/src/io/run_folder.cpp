@@ -19,7 +19,6 @@
 #include <cstring>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -30,10 +29,28 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view mark_begin = "A run of periporo writes into this folder; the last one was process ";
 
+constexpr const char* parts_folder = "results.parts";
+
 /// What every run makes in its folder, and what the writers of the program made before they told their names.
-constexpr std::array known_names{
-    checkpoint_name, previous_checkpoint_name, damaged_checkpoint_name, "checkpoint.h5", "summary.json", "results.h5",
-    "results.xdmf",  "results.parts",          "history.csv",           "run.log",       "case.toml"};
+constexpr std::array known_names{checkpoint_name,
+                                 previous_checkpoint_name,
+                                 damaged_checkpoint_name,
+                                 "checkpoint.h5",
+                                 "summary.json",
+                                 "results.h5",
+                                 "results.xdmf",
+                                 parts_folder,
+                                 "history.csv",
+                                 "history.csv.journal",
+                                 "run.log",
+                                 "case.toml"};
+
+/// Opens a file to be read; the stream stays closed for everything else, since opening a pipe would wait for ever.
+std::ifstream open_if_regular(const fs::path& file)
+{
+    std::error_code ignored;
+    return fs::is_regular_file(fs::symlink_status(file, ignored)) ? std::ifstream(file) : std::ifstream();
+}
 
 std::string first_line(std::uint64_t process)
 {
@@ -64,10 +81,11 @@ std::string without_additions(std::string name)
     return name;
 }
 
+/// Names that every run makes, and those that a mark lists.
 std::set<std::string> noted_names(const fs::path& folder)
 {
     std::set<std::string> names(known_names.begin(), known_names.end());
-    std::ifstream mark(folder / run_mark);
+    std::ifstream mark = open_if_regular(folder / run_mark);
     std::string line;
     std::getline(mark, line);
     while (std::getline(mark, line))
@@ -76,26 +94,70 @@ std::set<std::string> noted_names(const fs::path& folder)
     return names;
 }
 
-bool is_of_run(const std::string& name, const std::set<std::string>& noted)
+/// Names of what the program makes, and of what the writers of the present case make and noted before. A name that
+/// stands in the mark alone is no proof that a run made the file: anybody can write a mark.
+std::set<std::string> names_made(const fs::path& folder, const std::vector<std::string>& of_writers)
 {
-    return name == run_mark || noted.contains(without_additions(name));
+    std::set<std::string> names(known_names.begin(), known_names.end());
+    const std::set<std::string> noted = noted_names(folder);
+    for (const std::string& name : of_writers)
+        if (noted.contains(name))
+            names.insert(name);
+    return names;
 }
 
-std::vector<std::string> names_in(const fs::path& folder)
+bool is_of_run(const std::string& name, const std::set<std::string>& made)
 {
-    std::vector<std::string> names;
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-        names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
+    return name == run_mark || made.contains(without_additions(name));
+}
+
+/// Names in a folder; none when it is not there.
+std::vector<std::string> entries_of(const fs::path& folder)
+{
+    try {
+        return names_in(folder);
+    } catch (const FileError& error) {
+        if (error.error() == ENOENT)
+            return {};
+        throw FolderError(error.what());
+    }
+}
+
+bool is_number(std::string_view text)
+{
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Does a run give this name to a file in results.parts: "000012-2400.h5", "vertices-1200.h5", "journal"?
+bool is_part_of_results(const std::string& name)
+{
+    std::string stem = without_additions(name);
+    if (stem == "journal")
+        return true;
+    if (!stem.ends_with(".h5"))
+        return false;
+    stem.resize(stem.size() - 3);
+    const std::size_t hyphen = stem.find('-');
+    const std::string_view before = std::string_view(stem).substr(0, hyphen);
+    return hyphen != std::string::npos && (before == "vertices" || (is_number(before) && before.size() >= 6)) &&
+           is_number(std::string_view(stem).substr(hyphen + 1));
+}
+
+bool is_results_parts(const std::string& name)
+{
+    return without_additions(name) == parts_folder;
+}
+
+bool is_known(const std::string& name)
+{
+    return std::find(known_names.begin(), known_names.end(), without_additions(name)) != known_names.end();
 }
 
 /// Does the file begin as the log of a run does, "2026-01-31 12:00:00 info: "? Output that somebody redirected does
 /// not.
 bool is_run_log(const fs::path& file)
 {
-    std::ifstream stream(file);
+    std::ifstream stream = open_if_regular(file);
     std::string line;
     std::getline(stream, line);
     constexpr std::string_view form = "dddd-dd-dd dd:dd:dd ";
@@ -106,7 +168,7 @@ bool is_run_log(const fs::path& file)
 
 [[noreturn]] void throw_in_use(const fs::path& folder)
 {
-    std::ifstream mark(folder / run_mark);
+    std::ifstream mark = open_if_regular(folder / run_mark);
     std::string line;
     std::getline(mark, line);
     std::string process = line.size() > mark_begin.size() ? line.substr(mark_begin.size()) : "of unknown number";
@@ -143,81 +205,182 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder))
     made_folder_ = fs::create_directories(folder_, error);
     if (error)
         throw FolderError(FileError("cannot make the folder", folder_, error.value()).what());
-    const fs::path mark = folder_ / run_mark;
-    do {
-        if (descriptor_ >= 0)
-            ::close(descriptor_);
-        descriptor_ = ::open(mark.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-        if (descriptor_ < 0)
-            throw FolderError(FileError("cannot write", mark, errno).what());
-        if (!lock(descriptor_)) {
-            ::close(descriptor_);
-            throw_in_use(folder_);
-        }
-    } while (!is_file(descriptor_, mark)); // a run that ended just now deleted the file that was opened
-    const std::string line = first_line(static_cast<std::uint64_t>(::getpid()));
-    if (::pwrite(descriptor_, line.data(), line.size(), 0) != static_cast<ssize_t>(line.size())) {
-        const int reason = errno;
-        ::close(descriptor_);
-        throw FolderError(FileError("cannot write", mark, reason).what());
+    try {
+        lock_folder();
+        lock_mark();
+    } catch (...) {
+        close();
+        throw;
     }
+}
+
+void FolderLock::lock_folder()
+{
+    directory_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (directory_ < 0)
+        throw FolderError(FileError("cannot read", folder_, errno).what());
+    if (!lock(directory_))
+        throw_in_use(folder_);
+}
+
+void FolderLock::lock_mark()
+{
+    const fs::path mark = folder_ / run_mark;
+    try {
+        require_regular(mark);
+    } catch (const std::exception& error) {
+        throw FolderError(error.what());
+    }
+    do {
+        if (mark_ >= 0)
+            ::close(mark_);
+        mark_ = ::open(mark.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+        if (mark_ < 0)
+            throw FolderError(FileError("cannot write", mark, errno).what());
+        if (!lock(mark_))
+            throw_in_use(folder_);
+    } while (!is_file(mark_, mark)); // a run that ended just now deleted the file that was opened
+    const std::string line = first_line(static_cast<std::uint64_t>(::getpid()));
+    for (std::size_t done = 0; done < line.size();) { // the call after a short one has the reason
+        const ssize_t count = ::pwrite(mark_, line.data() + done, line.size() - done, static_cast<off_t>(done));
+        if (count < 0 && errno != EINTR)
+            throw FolderError(FileError("cannot write", mark, errno).what());
+        done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+    }
+}
+
+void FolderLock::close() noexcept
+{
+    for (int* descriptor : {&mark_, &directory_})
+        if (const int number = std::exchange(*descriptor, -1); number >= 0)
+            ::close(number); // frees the lock
 }
 
 FolderLock::~FolderLock()
 {
-    if (descriptor_ < 0)
+    if (mark_ < 0)
         return;
-    if (names_in(folder_) == std::vector<std::string>{run_mark}) { // nothing was written after all
-        ::unlink((folder_ / run_mark).c_str());
-        if (made_folder_)
-            ::rmdir(folder_.c_str());
+    try {
+        if (names_in(folder_) == std::vector<std::string>{run_mark}) { // nothing was written after all
+            ::unlink((folder_ / run_mark).c_str());
+            if (made_folder_)
+                ::rmdir(folder_.c_str());
+        }
+    } catch (const std::exception&) { // a folder that cannot be read, or is gone, is left as it is
     }
-    ::close(descriptor_); // frees the lock
+    close();
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept
     : folder_(std::move(other.folder_)), made_folder_(other.made_folder_),
-      descriptor_(std::exchange(other.descriptor_, -1))
+      directory_(std::exchange(other.directory_, -1)), mark_(std::exchange(other.mark_, -1))
 {
 }
 
 void require_no_run_in(const fs::path& folder)
 {
-    const int descriptor = ::open((folder / run_mark).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-    if (descriptor < 0)
-        return;
-    const bool free = lock(descriptor);
-    ::close(descriptor);
+    const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int mark = ::open((folder / run_mark).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    const bool free = (directory < 0 || lock(directory)) && (mark < 0 || lock(mark));
+    for (const int descriptor : {directory, mark})
+        if (descriptor >= 0)
+            ::close(descriptor);
     if (!free)
         throw_in_use(folder);
 }
 
 bool holds_run(const fs::path& folder)
 {
-    std::ifstream mark(folder / run_mark);
+    std::ifstream mark = open_if_regular(folder / run_mark);
     std::string line;
     std::getline(mark, line);
-    if (line.starts_with(mark_begin) || (fs::exists(folder / run_mark) && line.empty()))
+    std::error_code ignored;
+    if (line.starts_with(mark_begin) || (fs::exists(folder / run_mark, ignored) && line.empty()))
         return true;
-    return is_run_log(folder / "run.log") && fs::is_regular_file(folder / "case.toml"); // of an earlier version
+    // Of an earlier version, or somebody has deleted the mark.
+    return is_run_log(folder / "run.log") && fs::is_regular_file(folder / "case.toml", ignored);
 }
 
-std::vector<std::string> names_of_run(const fs::path& folder)
+std::vector<std::string> names_of_run(const fs::path& folder, const std::vector<std::string>& of_writers)
 {
-    const std::set<std::string> noted = noted_names(folder);
-    std::vector<std::string> names = names_in(folder);
-    std::erase_if(names, [&](const std::string& name) { return name == run_mark || !is_of_run(name, noted); });
+    const std::set<std::string> made = names_made(folder, of_writers);
+    std::vector<std::string> names = entries_of(folder);
+    std::erase_if(names, [&](const std::string& name) { return name == run_mark || !is_of_run(name, made); });
     std::stable_partition(names.begin(), names.end(),
                           [](const std::string& name) { return name.starts_with("checkpoint"); });
     return names;
 }
 
-std::vector<std::string> foreign_names(const fs::path& folder)
+std::vector<std::string> foreign_names(const fs::path& folder, const std::vector<std::string>& of_writers)
 {
-    const std::set<std::string> noted = noted_names(folder);
-    std::vector<std::string> names = names_in(folder);
-    std::erase_if(names, [&](const std::string& name) { return is_of_run(name, noted); });
-    return names;
+    const std::set<std::string> made = names_made(folder, of_writers);
+    std::vector<std::string> foreign;
+    for (const std::string& name : entries_of(folder)) {
+        if (!is_of_run(name, made))
+            foreign.push_back(name);
+        if (is_results_parts(name) && fs::is_directory(fs::symlink_status(folder / name)))
+            for (const std::string& part : entries_of(folder / name))
+                if (!is_part_of_results(part))
+                    foreign.push_back(name + '/' + part);
+    }
+    return foreign;
+}
+
+void require_sound_entries(const fs::path& folder, const std::vector<std::string>& of_writers, bool links_too)
+{
+    const auto require = [&](const fs::path& file) {
+        if (links_too && fs::is_symlink(fs::symlink_status(file)))
+            throw FolderError(fmt::format("{} is a symbolic link, which a run does not follow; put the file itself in "
+                                          "its place, or delete the link",
+                                          file.string()));
+        require_regular(file);
+    };
+    try {
+        require(folder / run_mark);
+        for (const std::string& name : names_of_run(folder, of_writers)) {
+            const fs::path entry = folder / name;
+            const bool is_folder = fs::is_directory(fs::symlink_status(entry));
+            if (is_folder && is_results_parts(name)) {
+                for (const std::string& part : entries_of(entry))
+                    if (is_part_of_results(part))
+                        require(entry / part);
+            } else if (!is_folder || is_known(name)) { // a writer may make folders of its own
+                require(entry);
+            }
+        }
+    } catch (const FolderError&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw FolderError(error.what());
+    }
+}
+
+void delete_run(const fs::path& folder, const std::vector<std::string>& of_writers)
+{
+    std::vector<fs::path> files, folders, of_others;
+    for (const std::string& name : names_of_run(folder, of_writers)) {
+        const fs::path entry = folder / name;
+        if (!fs::is_directory(fs::symlink_status(entry))) {
+            files.push_back(entry);
+        } else if (is_results_parts(name)) {
+            for (const std::string& part : entries_of(entry))
+                if (is_part_of_results(part))
+                    files.push_back(entry / part);
+            folders.push_back(entry);
+        } else {
+            of_others.push_back(entry); // of a writer of this case, which named it by files()
+        }
+    }
+    for (const fs::path& file : files)
+        remove_file(file); // a link is deleted, and not what it points to
+    for (const fs::path& emptied : folders)
+        ::rmdir(emptied.c_str()); // files of somebody else keep it
+    for (const fs::path& whole : of_others) {
+        std::error_code error;
+        fs::remove_all(whole, error);
+        if (error)
+            throw FileError("cannot delete", whole, error.value());
+    }
 }
 
 void note_names(const fs::path& folder, const std::vector<std::string>& names, bool fresh)

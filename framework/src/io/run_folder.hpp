@@ -12,8 +12,8 @@
 namespace periporo {
 
 /// The file that marks a folder of a run. Its first line names the process that wrote into the folder last; a line for
-/// each file or folder follows that a writer of a run makes there. The system locks it while a run goes on, and frees
-/// it at the end of the process by any cause.
+/// each file or folder follows that a writer of a run makes there. The system locks it, and the folder itself, while a
+/// run goes on, and frees both at the end of the process by any cause.
 inline constexpr const char* run_mark = "periporo.run";
 
 /// A folder that a run cannot write to: the user chooses another one.
@@ -22,7 +22,8 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Holds the lock of a folder. A folder in which nothing was written is left as it was found.
+/// Holds the lock of a folder, also when somebody deletes the mark. A folder in which nothing was written is left as it
+/// was found.
 class FolderLock {
 public:
     /// Makes the folder and its mark where they are missing, and locks it.
@@ -34,9 +35,14 @@ public:
     FolderLock& operator=(FolderLock&&) = delete;
 
 private:
+    void lock_folder();
+    void lock_mark();
+    void close() noexcept;
+
     std::filesystem::path folder_;
     bool made_folder_ = false;
-    int descriptor_ = -1;
+    int directory_ = -1; ///< descriptor of the folder
+    int mark_ = -1;      ///< descriptor of its mark
 };
 
 /// Throws as the constructor of FolderLock when a run goes on in the folder. Changes nothing.
@@ -45,12 +51,26 @@ void require_no_run_in(const std::filesystem::path& folder);
 /// Does the folder hold what a run of this program left behind, as far as it came?
 bool holds_run(const std::filesystem::path& folder);
 
-/// Everything in the folder that a run wrote: files of the program, and of the writers that its runs had. What comes
-/// first in the list is to be deleted first: without its checkpoint a run cannot be resumed by halves.
-std::vector<std::string> names_of_run(const std::filesystem::path& folder);
+/// Everything in the folder that has the name of a file or folder of a run, but the mark. What comes first in the list
+/// is to be deleted first: without its checkpoint a run cannot be resumed by halves.
+/// @param of_writers names that the writers of the present case make; they count when the mark has them too
+/// @throws FolderError when the folder cannot be read
+std::vector<std::string> names_of_run(const std::filesystem::path& folder,
+                                      const std::vector<std::string>& of_writers = {});
 
-/// Everything else in the folder, by name.
-std::vector<std::string> foreign_names(const std::filesystem::path& folder);
+/// Everything else in the folder, by name, with what a run does not make in its folder of parts. Parameter and error as
+/// of names_of_run().
+std::vector<std::string> foreign_names(const std::filesystem::path& folder,
+                                       const std::vector<std::string>& of_writers = {});
+
+/// @param links_too are symbolic links an error?
+/// @throws FolderError naming a file of a run that is a folder, a pipe, a device, or a link
+void require_sound_entries(const std::filesystem::path& folder, const std::vector<std::string>& of_writers,
+                           bool links_too);
+
+/// Deletes the regular files and links that have names of a run, and the folder of parts when nothing else is in it.
+/// @param of_writers as for names_of_run(); their folders are deleted whole
+void delete_run(const std::filesystem::path& folder, const std::vector<std::string>& of_writers);
 
 /// Notes the names that the writers of a run make in its folder, before they make them.
 /// @param fresh the run does not go on with an earlier one

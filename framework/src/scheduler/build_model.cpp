@@ -13,6 +13,7 @@
 #include "scheduler/held_points.hpp"
 #include "water/overburden.hpp"
 #include "water/pore_stress.hpp"
+#include "water/pressure_field.hpp"
 #include "water/standing_water.hpp"
 
 #include <Eigen/Geometry>
@@ -48,13 +49,14 @@ std::uint64_t curve_position(const Vector3& x, const Vector3& lower, double spac
 }
 
 /// The points of a body, and what a user should know of them.
-PointCloud fill_with_points(BuiltModel& built, const CaseDescription& description, const BodyDescription& body,
+PointCloud fill_with_points(BuiltModel& built, const CaseDescription& description, std::size_t index,
                             Geometries& geometries, const BuildProgress& progress)
 {
+    const BodyDescription& body = description.bodies[index];
     PointCloud cloud;
     double volume = 0.0;
     try {
-        const std::shared_ptr<const Geometry> geometry = geometries.make(body.geometry);
+        const std::shared_ptr<const Geometry> geometry = geometries.of_body(index);
         cloud = fill_body(*geometry, description.discretization.spacing, body.fill, [&](double fraction) {
             if (progress)
                 progress(body.name, fraction);
@@ -82,17 +84,17 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
               Geometries& geometries, const BuildProgress& progress)
 {
     const BodyDescription& body = description.bodies[index];
-    const PointCloud cloud = fill_with_points(built, description, body, geometries, progress);
+    const PointCloud cloud = fill_with_points(built, description, index, geometries, progress);
     const double filled = std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0);
     Points& points = built.model.state.points;
     const MaterialDescription& material = material_of(description, body);
     Vector3 centre = Vector3::Zero();
     for (std::size_t p = 0; p < cloud.positions.size(); ++p)
         centre += cloud.volumes[p] / filled * cloud.positions[p];
-    std::size_t cut = 0;
+    std::vector<Vector3> cut;
     for (std::size_t p = 0; p < cloud.positions.size(); ++p) {
         if (!kept(description, cloud.positions[p])) {
-            ++cut;
+            cut.push_back(cloud.positions[p]);
             continue;
         }
         const std::size_t i = points.size();
@@ -104,39 +106,40 @@ void add_body(BuiltModel& built, const CaseDescription& description, std::size_t
         points.body[i] = static_cast<std::uint32_t>(index);
         points.id[i] = static_cast<std::int64_t>(p);
     }
-    if (cut == cloud.positions.size())
+    if (cut.size() == cloud.positions.size())
         throw refusal(description, "body." + body.name + ".geometry",
                       fmt::format("body '{}': no point lies on the kept side of the symmetry planes and periodic pairs "
                                   "(the side of larger coordinates)",
                                   body.name));
-    if (cut > 0)
+    if (!cut.empty())
         built.remarks.push_back(fmt::format("body '{}': {} of {} points lie behind symmetry planes and are represented "
                                             "by images",
-                                            body.name, cut, cloud.positions.size()));
+                                            body.name, cut.size(), cloud.positions.size()));
+    built.cut_away.push_back(std::move(cut));
     built.model.state.bodies.push_back({body.name, make_material(description, body, registry),
                                         body.initial_stress.overconsolidation_ratio, material.porosity});
 }
 
-void add_obstacles(BuiltModel& built, const CaseDescription& description, Geometries& geometries)
+void add_obstacles(BuiltModel& built, const CaseDescription& description, Geometries& geometries, Refusals& refusals)
 {
-    for (const ObstacleDescription& obstacle : description.obstacles) {
-        try {
-            const std::shared_ptr<const Geometry> geometry = geometries.make(obstacle.geometry);
+    for (const ObstacleDescription& obstacle : description.obstacles)
+        refusals.attempt("obstacle." + obstacle.name + ".geometry", [&] {
+            std::shared_ptr<const Geometry> geometry;
+            try {
+                geometry = geometries.make(obstacle.geometry);
+            } catch (const std::bad_alloc&) {
+                throw;
+            } catch (const std::exception& error) {
+                throw std::runtime_error(fmt::format("obstacle '{}': {}", obstacle.name, error.what()));
+            }
             if (!geometry->has_distance())
-                throw std::runtime_error(
-                    fmt::format("geometry '{}' cannot tell the distance from its surface, which an "
-                                "obstacle needs",
-                                obstacle.geometry.name));
+                throw std::runtime_error(fmt::format("obstacle '{}': geometry '{}' cannot tell the distance from its "
+                                                     "surface, which an obstacle needs",
+                                                     obstacle.name, obstacle.geometry.name));
             for (const std::string& remark : geometry->remarks())
                 built.remarks.push_back(fmt::format("obstacle '{}': {}", obstacle.name, remark));
             built.model.state.obstacles.push_back({obstacle.name, geometry});
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (const std::exception& error) {
-            throw refusal(description, "obstacle." + obstacle.name + ".geometry",
-                          fmt::format("obstacle '{}': {}", obstacle.name, error.what()));
-        }
-    }
+        });
 }
 
 template <class Named>
@@ -199,6 +202,27 @@ void order_along_curve(Points& points, double spacing)
     apply(points.id);
 }
 
+/// Reads the water of every body and of every change, that of late stages too.
+void check_water_fields(const CaseDescription& description, Refusals& refusals)
+{
+    const auto check = [&](const std::string& key, const std::string& body, const WaterDescription& water) {
+        refusals.attempt(key, [&] {
+            try {
+                make_pressure_field(water, description.gravity);
+            } catch (const std::exception& error) {
+                throw std::runtime_error(fmt::format("water of body '{}': {}", body, error.what()));
+            }
+        });
+    };
+    for (const BodyDescription& body : description.bodies)
+        check("body." + body.name + ".water.file", body.name, body.water);
+    for (std::size_t s = 0; s < description.stages.size(); ++s)
+        for (std::size_t w = 0; w < description.stages[s].water_changes.size(); ++w) {
+            const WaterChangeDescription& change = description.stages[s].water_changes[w];
+            check(fmt::format("stage.{}.water.{}.file", s, w), change.body, change.water);
+        }
+}
+
 /// Says which bodies reach below the water table of another one and are out of the water themselves.
 void remark_on_water_tables(BuiltModel& built)
 {
@@ -228,7 +252,13 @@ std::shared_ptr<const Material> make_material(const CaseDescription& description
     return registry.make_material(model.name, model.parameters);
 }
 
-BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry,
+BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry)
+{
+    Geometries geometries(description, registry);
+    return build_model(description, registry, geometries);
+}
+
+BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry, Geometries& geometries,
                        const BuildProgress& progress)
 {
     BuiltModel built;
@@ -236,21 +266,27 @@ BuiltModel build_model(const CaseDescription& description, const PluginRegistry&
     model.state.spacing = description.discretization.spacing;
     model.state.horizon = description.discretization.horizon();
     model.state.gravity = description.gravity;
-    Geometries geometries(description, registry);
-    built.water = Water(description, registry);
+    Refusals refusals(description);
+    refusals.attempt("material", [&] { built.water = Water(description, registry); });
+    check_water_fields(description, refusals);
     for (std::size_t b = 0; b < description.bodies.size(); ++b)
-        add_body(built, description, b, registry, geometries, progress);
-    add_obstacles(built, description, geometries);
+        refusals.attempt("body." + description.bodies[b].name,
+                         [&] { add_body(built, description, b, registry, geometries, progress); });
+    add_obstacles(built, description, geometries, refusals);
+    refusals.raise(); // what follows needs all bodies
     order_along_curve(model.state.points, model.state.spacing);
     built.water.begin(model);
     remark_on_water_tables(built);
     model.allocate();
-    for (const HeldRegionDescription& region : description.held_regions) {
-        built.held_regions.push_back(points_of_region(model, region, geometries));
-        built.remarks.push_back(describe_region(region, built.held_regions.back().size()));
-    }
+    for (const HeldRegionDescription& region : description.held_regions)
+        refusals.attempt(region.key, [&] {
+            built.held_regions.push_back(points_of_region(model, region, geometries));
+            built.remarks.push_back(describe_region(region, built.held_regions.back().size()));
+        });
     for (std::size_t c = 0; c < description.contacts.size(); ++c)
-        built.contacts.push_back(assignment_of(model, description, c, registry));
+        refusals.attempt(fmt::format("contact.{}", c),
+                         [&] { built.contacts.push_back(assignment_of(model, description, c, registry)); });
+    refusals.raise();
     for (const ContactAssignment& contact : built.contacts) {
         if (contact.surface_body)
             model.state.bodies[*contact.surface_body].ground = true;
@@ -332,10 +368,9 @@ void set_initial_stress(Model& model, const ForceState& force_state, const CaseD
             const Eigen::Matrix3d stress =
                 lateral * Eigen::Matrix3d::Identity() + (vertical - lateral) * up * up.transpose();
             double* bond = held.bond(h);
-            const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
-                                          stress(0, 1), stress(1, 2), stress(0, 2)};
-            for (std::size_t c = 0; c < 6; ++c)
-                bond[c * pack_width] = components[c];
+            const double rows[6] = {stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(0, 2)};
+            for (std::size_t r = 0; r < 6; ++r)
+                bond[r * pack_width] = rows[r];
         }
     }
     initialize_materials(model, force_state);

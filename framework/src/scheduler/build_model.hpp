@@ -9,6 +9,7 @@
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
 #include "plugins/registry.hpp"
+#include "scheduler/geometries.hpp"
 #include "water/water.hpp"
 
 #include <functional>
@@ -27,6 +28,7 @@ struct BuiltModel {
     Water water;
     std::vector<ContactAssignment> contacts;
     std::vector<std::vector<std::uint32_t>> held_regions; ///< points of each held region of the case
+    std::vector<std::vector<Vector3>> cut_away; ///< of each body: places of the points that boundaries leave out [m]
     std::vector<std::string> remarks; ///< what a user should know: points cut away, mass against exact, repairs
 };
 
@@ -35,9 +37,12 @@ using BuildProgress = std::function<void(const std::string& body, double fractio
 
 /// Points of all bodies, cut at symmetry planes (the side of larger coordinates stays) and to periodic cells, in the
 /// order of a space-filling curve.
-/// @throws PluginError or std::runtime_error naming the body when a geometry cannot be filled.
-BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry,
+/// @param geometries of the case, those that are made already included
+/// @throws CaseError with all bodies, obstacles, regions and contacts that cannot be built.
+BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry, Geometries& geometries,
                        const BuildProgress& progress = {});
+/// The same with geometries of its own.
+BuiltModel build_model(const CaseDescription& description, const PluginRegistry& registry);
 
 /// Isometries of the boundaries of the case and the plane rollers of a stage.
 std::vector<Isometry> image_generators(const CaseDescription& description, const StageDescription& stage);

@@ -50,7 +50,8 @@ struct Sample {
     std::unique_ptr<Simulation> simulation = nullptr;
 };
 
-std::unique_ptr<Sample> prepared(const CaseDescription& description, const PluginRegistry& registry, double coarser)
+std::unique_ptr<Sample> prepared(const CaseDescription& description, const PluginRegistry& registry,
+                                 Geometries& geometries, double coarser)
 {
     auto sample = std::make_unique<Sample>();
     sample->description = description;
@@ -61,26 +62,28 @@ std::unique_ptr<Sample> prepared(const CaseDescription& description, const Plugi
         for (BodyDescription& body : sample->description.bodies)
             body.fill.align = "axes";
     sample->options.quiet = true;
+    sample->options.stand_in = coarser > 1.0;
     const auto silent = std::make_shared<spdlog::logger>("explain", std::make_shared<spdlog::sinks::null_sink_mt>());
-    sample->simulation =
-        std::make_unique<Simulation>(sample->description, registry, sample->options, sample->interruption, silent);
+    sample->simulation = std::make_unique<Simulation>(sample->description, registry, sample->options,
+                                                      sample->interruption, silent, &geometries);
     sample->simulation->prepare();
     return sample;
 }
 
-/// The case itself when it is small. A coarser lattice may miss thin parts; then one less coarse is tried.
-std::unique_ptr<Sample> sample_of(const CaseDescription& description, const PluginRegistry& registry, double points,
-                                  std::string& why_none)
+/// The case itself when it is small. A coarser lattice may miss thin parts, or the points in a thin layer; then others
+/// are tried, up to twice the points and down to a third of them: four times as many take too long.
+std::unique_ptr<Sample> sample_of(const CaseDescription& description, const PluginRegistry& registry,
+                                  Geometries& geometries, double points, std::string& why_none)
 {
-    constexpr double most_tried = 4.0; // of points_to_build
-    double coarser = std::max(1.0, std::cbrt(points / points_to_build));
+    const double coarser = std::max(1.0, std::cbrt(points / points_to_build));
     if (coarser == 1.0)
-        return prepared(description, registry, 1.0);
-    for (int attempt = 0; attempt < 2; ++attempt, coarser = std::max(1.0, coarser / std::cbrt(most_tried)))
+        return prepared(description, registry, geometries, 1.0);
+    for (const double factor : {1.0, 0.9, 1.1, 0.8, 1.2, 1.3, 1.4})
         try {
-            return prepared(description, registry, coarser);
+            return prepared(description, registry, geometries, std::max(1.0, factor * coarser));
         } catch (const std::exception& error) {
-            why_none = error.what();
+            if (why_none.empty())
+                why_none = error.what();
         }
     return nullptr;
 }
@@ -190,10 +193,11 @@ std::string step_text(const CaseDescription& description, const StableStep& stab
 
 std::string explain_case(const CaseDescription& description, const PluginRegistry& registry)
 {
-    const SizeEstimate size = estimate_size(description, registry);
+    Geometries geometries(description, registry);
+    const SizeEstimate size = estimate_size(description, registry, geometries);
     std::string text = fmt::format("{}\n", description.title);
     std::string why_none;
-    const std::unique_ptr<Sample> sample = sample_of(description, registry, size.points, why_none);
+    const std::unique_ptr<Sample> sample = sample_of(description, registry, geometries, size.points, why_none);
     if (!sample)
         return text +
                fmt::format("  about {:.2g} points with {:.0f} bonds each\n", size.points, size.bonds_of_a_point) +

@@ -21,13 +21,20 @@ std::shared_ptr<const Geometry> Geometries::make(const PluginChoice& choice)
     return geometry;
 }
 
+std::shared_ptr<const Geometry> Geometries::of_body(std::size_t body)
+{
+    if (const auto made = of_bodies_.find(body); made != of_bodies_.end())
+        return made->second;
+    return of_bodies_.emplace(body, make(description_.bodies[body].geometry)).first->second;
+}
+
 std::shared_ptr<const Geometry> Geometries::named(const std::string& name)
 {
     if (const auto made = named_.find(name); made != named_.end())
         return made->second;
     const auto described = std::find_if(description_.geometries.begin(), description_.geometries.end(),
                                         [&](const GeometryDescription& geometry) { return geometry.name == name; });
-    return named_[name] = make(described->plugin);
+    return named_.emplace(name, make(described->plugin)).first->second;
 }
 
 } // namespace periporo

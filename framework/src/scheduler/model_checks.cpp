@@ -8,6 +8,8 @@
 #include "neighbourhood/cell_list.hpp"
 #include "scheduler/geometries.hpp"
 #include "scheduler/gravity_checks.hpp"
+#include "scheduler/plane_checks.hpp"
+#include "scheduler/value_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +109,7 @@ Intruder intruders(const Model& model, std::size_t body, const Bounds& bounds, c
 void check_overlap_of(const Model& model, const CaseDescription& description, std::size_t a, std::size_t b,
                       const Bounds& bounds_b, Geometries& geometries, std::vector<std::string>& suspicions)
 {
-    const Intruder found = intruders(model, a, bounds_b, *geometries.make(description.bodies[b].geometry));
+    const Intruder found = intruders(model, a, bounds_b, *geometries.of_body(b));
     if (found.count == 0)
         return;
     const bool deep = found.deep < model.size();
@@ -119,10 +121,9 @@ void check_overlap_of(const Model& model, const CaseDescription& description, st
     suspicions.push_back(suspicion(description, body_key(model, a) + ".geometry", what));
 }
 
-void check_overlaps(const Model& model, const CaseDescription& description, const PluginRegistry& registry,
+void check_overlaps(const Model& model, const CaseDescription& description, Geometries& geometries, Refusals& refusals,
                     std::vector<std::string>& suspicions)
 {
-    Geometries geometries(description, registry);
     std::vector<Bounds> bounds;
     for (std::size_t b = 0; b < model.state.bodies.size(); ++b)
         bounds.push_back(bounds_of(model, b));
@@ -131,62 +132,62 @@ void check_overlaps(const Model& model, const CaseDescription& description, cons
             const bool apart = (bounds[a].upper.array() < bounds[b].lower.array()).any() ||
                                (bounds[a].lower.array() > bounds[b].upper.array()).any();
             if (a != b && !apart)
-                check_overlap_of(model, description, a, b, bounds[b], geometries, suspicions);
+                refusals.attempt(body_key(model, a), [&] {
+                    check_overlap_of(model, description, a, b, bounds[b], geometries, suspicions);
+                });
         }
 }
 
 /// Bodies that begin within what they touch.
-void check_surfaces(const BuiltModel& built, const CaseDescription& description, std::vector<std::string>& suspicions)
+void check_surface(const BuiltModel& built, const CaseDescription& description, std::size_t c,
+                   std::vector<std::string>& suspicions)
 {
     const Model& model = built.model;
-    for (std::size_t c = 0; c < built.contacts.size(); ++c) {
-        const ContactAssignment& contact = built.contacts[c];
-        if (!at_rigid_surface(contact))
+    const ContactAssignment& contact = built.contacts[c];
+    if (!at_rigid_surface(contact))
+        return;
+    const RigidContactSurface surface(model, contact);
+    if (!surface.present())
+        return;
+    std::size_t deepest = 0, behind = 0, all = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        Vector3 normal;
+        if (!names(contact, model.state.points.body[i]))
             continue;
-        const RigidContactSurface surface(model, contact);
-        if (!surface.present())
-            continue;
-        std::size_t deepest = 0, behind = 0, all = 0;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < model.size(); ++i) {
-            Vector3 normal;
-            if (!names(contact, model.state.points.body[i]))
-                continue;
-            ++all;
-            const double distance = surface.distance(model.state.points.position[i], normal);
-            behind += distance < 0.0 ? 1 : 0;
-            if (distance < least) {
-                least = distance;
-                deepest = i;
-            }
+        ++all;
+        const double distance = surface.distance(model.state.points.position[i], normal);
+        behind += distance < 0.0 ? 1 : 0;
+        if (distance < least) {
+            least = distance;
+            deepest = i;
         }
-        if (behind == 0)
-            continue;
-        const std::string what = fmt::format(
-            "{} of the {} points of body '{}' begin {} {}, the deepest {:.4g} m at {}", behind, all,
-            model.body_of(deepest).name, contact.obstacle ? "inside obstacle" : "below the surface of",
-            contact.obstacle ? "'" + model.state.obstacles[*contact.obstacle].name + "'" : fmt::format("contact {}", c),
-            -least, place(model.state.points.position[deepest]));
-        if (least < -model.state.spacing)
-            throw refusal(description, fmt::format("contact.{}", c), what,
-                          contact.obstacle ? "move the body or the obstacle"
-                                           : "move the body or the surface, or turn its normal to the body's side");
-        suspicions.push_back(suspicion(description, fmt::format("contact.{}", c), what));
     }
+    if (behind == 0)
+        return;
+    const std::string what = fmt::format(
+        "{} of the {} points of body '{}' begin {} {}, the deepest {:.4g} m at {}", behind, all,
+        model.body_of(deepest).name, contact.obstacle ? "inside obstacle" : "below the surface of",
+        contact.obstacle ? "'" + model.state.obstacles[*contact.obstacle].name + "'" : fmt::format("contact {}", c),
+        -least, place(model.state.points.position[deepest]));
+    if (least < -model.state.spacing)
+        throw refusal(description, fmt::format("contact.{}", c), what,
+                      contact.obstacle ? "move the body or the obstacle"
+                                       : "move the body or the surface, or turn its normal to the body's side");
+    suspicions.push_back(suspicion(description, fmt::format("contact.{}", c), what));
 }
 
-void check_friction(const BuiltModel& built, const CaseDescription& description, std::vector<std::string>& suspicions)
+void check_friction(const BuiltModel& built, const CaseDescription& description, std::size_t c,
+                    std::vector<std::string>& suspicions)
 {
-    for (std::size_t c = 0; c < built.contacts.size(); ++c) {
-        const double friction = built.contacts[c].law->friction();
-        const std::string key = fmt::format("contact.{}.friction", c);
-        const std::string what = fmt::format("a coefficient of friction of {:.4g} is that of a slope of {:.1f} degrees",
-                                             friction, 57.29578 * std::atan(friction));
-        if (!(friction <= absurd_friction))
-            throw refusal(description, key, what, "no surface has that; most have 0.2 to 1");
-        if (friction > high_friction)
-            suspicions.push_back(suspicion(description, key, what + "; most surfaces have 0.2 to 1"));
-    }
+    const double friction = built.contacts[c].law->friction();
+    const std::string key = fmt::format("contact.{}.friction", c);
+    const std::string what = fmt::format("a coefficient of friction of {:.4g} is that of a slope of {:.1f} degrees",
+                                         friction, 57.29578 * std::atan(friction));
+    if (!(friction <= absurd_friction))
+        throw refusal(description, key, what, "no surface has that; most have 0.2 to 1");
+    if (friction > high_friction)
+        suspicions.push_back(suspicion(description, key, what + "; most surfaces have 0.2 to 1"));
 }
 
 /// A body that outruns its own waves comes apart in the first steps, with errors that name something else.
@@ -235,19 +236,32 @@ void check_stages(const CaseDescription& description, std::vector<std::string>& 
 } // namespace
 
 std::vector<std::string> check_model(const BuiltModel& built, const CaseDescription& description,
-                                     const PluginRegistry& registry)
+                                     Geometries& geometries)
 {
     std::vector<std::string> suspicions;
+    Refusals refusals(description);
     if (description.outputs.empty())
-        suspicions.push_back(suspicion(description, "output", "there is no [[output]]: a run leaves its summary only"));
-    check_resolution(built.model, description);
-    check_coincidence(built.model, description);
-    check_overlaps(built.model, description, registry, suspicions);
-    check_surfaces(built, description, suspicions);
-    check_friction(built, description, suspicions);
-    check_gravity(built, description, suspicions);
+        suspicions.push_back(suspicion(description, "output",
+                                       "there is no [[output]]: a run leaves its summary and its log, and neither "
+                                       "snapshots nor a history of energies; to store them add\n"
+                                       "  [[output]]\n  writer = \"hdf5\"\n  every = \"20 ms\""));
+    const bool distinct = refusals.attempt("body", [&] {
+        check_resolution(built.model, description);
+        check_coincidence(built.model, description);
+    });
+    if (distinct)
+        check_overlaps(built.model, description, geometries, refusals, suspicions);
+    check_planes(built, description, geometries, refusals, suspicions);
+    for (std::size_t c = 0; c < built.contacts.size(); ++c) {
+        const std::string key = fmt::format("contact.{}", c);
+        refusals.attempt(key, [&] { check_surface(built, description, c, suspicions); });
+        refusals.attempt(key, [&] { check_friction(built, description, c, suspicions); });
+    }
+    refusals.attempt("gravity", [&] { check_gravity(built, description, suspicions); });
+    check_values(built, description, refusals, suspicions);
     check_speeds(built.model, description, suspicions);
     check_stages(description, suspicions);
+    refusals.raise();
     return suspicions;
 }
 

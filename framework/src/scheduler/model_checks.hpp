@@ -11,12 +11,13 @@
 
 namespace periporo {
 
-/// Points that coincide, bodies in one another, bodies below a surface that they touch, gravity that nothing resists,
-/// stages in which nothing happens, extreme friction, no output.
+/// Points that coincide, bodies in one another, bodies below a surface that they touch, planes of images within bodies,
+/// gravity that nothing resists, stages in which nothing happens, values that look like a wrong unit, no output.
 /// @param built with the obstacles of the first stage
+/// @param geometries of the case
 /// @return what is suspicious, a warning each with its place
-/// @throws CaseError when a run would go wrong
+/// @throws CaseError with all for which a run would go wrong
 std::vector<std::string> check_model(const BuiltModel& built, const CaseDescription& description,
-                                     const PluginRegistry& registry);
+                                     Geometries& geometries);
 
 } // namespace periporo

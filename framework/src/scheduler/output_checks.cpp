@@ -14,15 +14,16 @@ namespace periporo {
 namespace {
 
 void check_list(const CaseDescription& description, const std::string& key, const std::vector<std::string>& wanted,
-                const std::vector<std::string>& known)
+                const std::vector<std::string>& known, Refusals& refusals)
 {
-    for (auto name = wanted.begin(); name != wanted.end(); ++name) {
-        if (std::ranges::find(known, *name) == known.end())
-            throw refusal(description, key, fmt::format("there is no field '{}'", *name),
-                          naming_hint(*name, known, "fields of this case"));
-        if (std::find(wanted.begin(), name, *name) != name)
-            throw refusal(description, key, fmt::format("the field '{}' is named twice", *name));
-    }
+    for (auto name = wanted.begin(); name != wanted.end(); ++name)
+        refusals.attempt(key, [&] {
+            if (std::ranges::find(known, *name) == known.end())
+                throw refusal(description, key, fmt::format("there is no field '{}'", *name),
+                              naming_hint(*name, known, "fields of this case"));
+            if (std::find(wanted.begin(), name, *name) != name)
+                throw refusal(description, key, fmt::format("the field '{}' is named twice", *name));
+        });
 }
 
 } // namespace
@@ -31,6 +32,7 @@ void check_fields(const CaseDescription& description, const PluginRegistry& regi
                   const ForceState& force_state)
 {
     std::vector<std::string> known;
+    Refusals refusals(description);
     for (std::size_t o = 0; o < description.outputs.size(); ++o) {
         const PluginChoice& writer = description.outputs[o].writer;
         for (const Parameter& record : registry.require(PluginKind::output, writer.name).parameters) {
@@ -43,9 +45,10 @@ void check_fields(const CaseDescription& description, const PluginRegistry& regi
                     known.emplace_back(field.name);
             }
             check_list(description, fmt::format("output.{}.{}", o, record.name),
-                       std::get<std::vector<std::string>>(given->second), known);
+                       std::get<std::vector<std::string>>(given->second), known, refusals);
         }
     }
+    refusals.raise();
 }
 
 } // namespace periporo

@@ -11,8 +11,8 @@
 
 namespace periporo {
 
-/// @throws CaseError when a parameter made by Parameter::fields() names a field that snapshots of the model do not
-/// have, or one twice.
+/// @throws CaseError with every field that a parameter made by Parameter::fields() names and snapshots of the model do
+/// not have, or that it names twice.
 void check_fields(const CaseDescription& description, const PluginRegistry& registry, const Model& model,
                   const ForceState& force_state);
 

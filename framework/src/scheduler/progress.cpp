@@ -30,9 +30,22 @@ void Progress::update(const std::function<std::string()>& text)
     const Clock::time_point now = Clock::now();
     if (now - last_ < (terminal_ ? on_terminal : in_log))
         return;
-    last_ = now;
+    show(text());
+}
+
+void Progress::announce(const std::function<std::string()>& text)
+{
+    if (terminal_ && !quiet_)
+        show(text());
+    else
+        update(text);
+}
+
+void Progress::show(const std::string& text)
+{
+    last_ = Clock::now();
     // A terminal that is gone is no error.
-    std::fputs((terminal_ ? "\r\033[K" + text() : text() + '\n').c_str(), stderr);
+    std::fputs((terminal_ ? "\r\033[K" + text : text + '\n').c_str(), stderr);
     std::fflush(stderr);
     shown_ = terminal_;
 }

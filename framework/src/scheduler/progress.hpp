@@ -21,10 +21,14 @@ public:
 
     /// Shows the line that `text` makes, if it is time for one.
     void update(const std::function<std::string()>& text);
+    /// Shows the line on a terminal at once: what begins may take long and has no parts to tell of. Elsewhere it is
+    /// one line like others.
+    void announce(const std::function<std::string()>& text);
     /// Ends the renewing line, so that other text can follow.
     void clear();
 
 private:
+    void show(const std::string& text);
     using Clock = std::chrono::steady_clock;
     bool quiet_;
     bool terminal_;

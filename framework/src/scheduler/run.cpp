@@ -40,7 +40,7 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
         Simulation simulation(description, registry, options, interruption, log.logger());
         simulation.prepare(std::move(checkpoint.archive));
         if (options.take_folder)
-            options.take_folder();
+            options.take_folder(simulation.inputs());
         else
             std::filesystem::create_directories(options.directory);
         log.open(options.directory / "run.log", options.resume);
@@ -54,13 +54,13 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
     }
 }
 
-std::vector<std::string> check_case(const CaseDescription& description, const PluginRegistry& registry)
+std::vector<std::string> check_case(const CaseDescription& description, const PluginRegistry& registry, bool quiet)
 {
     const auto warnings = std::make_shared<spdlog::sinks::ringbuffer_sink_mt>(1000);
     warnings->set_level(spdlog::level::warn);
     warnings->set_pattern("%v");
     RunOptions options;
-    options.quiet = true;
+    options.quiet = quiet;
     InterruptionGuard interruption;
     Simulation(description, registry, options, interruption, std::make_shared<spdlog::logger>("check", warnings))
         .prepare();
@@ -69,8 +69,9 @@ std::vector<std::string> check_case(const CaseDescription& description, const Pl
 
 void draw_case(const CaseDescription& description, const PluginRegistry& registry, const std::filesystem::path& file)
 {
-    check_size(description, registry);
-    draw_set_up(build_model(description, registry), description).save(file);
+    Geometries geometries(description, registry);
+    check_size(description, registry, geometries);
+    draw_set_up(build_model(description, registry, geometries), description).save(file);
 }
 
 } // namespace periporo

@@ -6,6 +6,7 @@
 
 #include "case/description.hpp"
 #include "plugins/registry.hpp"
+#include "scheduler/input_hashes.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,9 +20,11 @@ struct RunOptions {
     std::filesystem::path directory; ///< results; made when missing
     int threads = 0;                 ///< 0 takes what OpenMP offers
     bool resume = false;             ///< go on from the checkpoint in `directory`
+    bool without_lost = false;       ///< go on although results are gone that the checkpoint counts on
     bool quiet = false;              ///< no progress on the terminal; the log file is written all the same
+    bool stand_in = false; ///< the case on a coarser lattice, to measure times: no look at what the user meant
     /// Called when nothing is wrong with the case and its model is built, before anything is written: frees the folder.
-    std::function<void()> take_folder;
+    std::function<void(const InputHashes& inputs)> take_folder;
     /// Stop with a checkpoint after so many steps of all stages; none: run to the end.
     std::optional<std::uint64_t> stop_after = {};
 };
@@ -38,9 +41,10 @@ enum class RunOutcome {
 RunOutcome run_case(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options);
 
 /// Builds all that a run of the case would build, short of its first step, and writes nothing.
+/// @param quiet shows no progress on the terminal
 /// @return what is suspicious, a text each
 /// @throws CaseError, PluginError as a run of the case would.
-std::vector<std::string> check_case(const CaseDescription& description, const PluginRegistry& registry);
+std::vector<std::string> check_case(const CaseDescription& description, const PluginRegistry& registry, bool quiet);
 
 /// The case in plain words: bodies, points, families, stages, stable step, memory and the work ahead.
 std::string explain_case(const CaseDescription& description, const PluginRegistry& registry);

@@ -3,7 +3,11 @@
 //
 #include "scheduler/run_log.hpp"
 
+#include "periporo/file.hpp"
+
 #include <spdlog/sinks/stdout_sinks.h>
+
+#include <cerrno>
 
 namespace periporo {
 namespace {
@@ -25,7 +29,12 @@ RunLog::RunLog(bool quiet) : early_(std::make_shared<spdlog::sinks::ringbuffer_s
 
 void RunLog::open(const std::filesystem::path& file, bool append)
 {
-    file_ = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append);
+    require_regular(file);
+    try {
+        file_ = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append);
+    } catch (const spdlog::spdlog_ex&) { // its words have no way out
+        throw FileError("cannot write", file, errno);
+    }
     file_->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
     for (const spdlog::details::log_msg_buffer& line : early_->last_raw())
         file_->log(line);

@@ -48,6 +48,7 @@ void restore(ArchiveReader& archive, const RunState& run, const std::vector<Stag
     archive.part("step_estimate", run.frequency, points);
     archive.part("water", run.water);
     archive.part("outputs", run.outputs);
+    run.outputs.check(run.position.step);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "io/run_folder.hpp"
 #include "operator/refresh.hpp"
 #include "scheduler/build_model.hpp"
+#include "scheduler/duration_checks.hpp"
 #include "scheduler/guards.hpp"
 #include "scheduler/held_points.hpp"
 #include "scheduler/model_checks.hpp"
@@ -66,7 +67,7 @@ nlohmann::json parse_reports(const std::string& text, const std::filesystem::pat
 } // namespace
 
 Simulation::Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
-                       InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log)
+                       InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log, Geometries* geometries)
     : description_(description), registry_(registry), options_(options), interruption_(interruption),
       log_(std::move(log)),
       force_state_(
@@ -76,21 +77,20 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
       outputs_(description, registry), progress_(options.quiet), started_(std::chrono::steady_clock::now()),
       last_checkpoint_(started_)
 {
-    check_size(description, registry);
+    Geometries own(description, registry);
+    Geometries& known = geometries == nullptr ? own : *geometries;
+    check_size(description, registry, known);
     BuiltModel built;
     refuse_failures(description, "", [&] {
-        built = build_model(description, registry, [this](const std::string& body, double fraction) {
+        built = build_model(description, registry, known, [this](const std::string& body, double fraction) {
             progress_.update([&] { return fmt::format("filling body '{}': {:.0f} %", body, 100.0 * fraction); });
         });
     });
     progress_.clear();
     inputs_ = InputHashes::of(description, registry); // after all plugins have loaded what they need
     set_obstacles(built.model, description, description.stages.front());
-    for (const std::string& warning : check_model(built, description, registry))
-        log_->warn(warning);
-    for (std::size_t s = 0; s < description.stages.size(); ++s)
-        refuse_failures(description, fmt::format("stage.{}", s),
-                        [&] { IsometryTable().set_generators(image_generators(description, description.stages[s])); });
+    if (!options.stand_in)
+        check(built, known);
     model_ = std::move(built.model);
     contact_ = ContactForces(std::move(built.contacts));
     water_ = std::move(built.water);
@@ -98,6 +98,22 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
     remarks_ = std::move(built.remarks);
     for (const std::string& remark : remarks_)
         log_->info(remark);
+}
+
+void Simulation::check(const BuiltModel& built, Geometries& geometries)
+{
+    progress_.announce([&] { return fmt::format("looking at {} points", built.model.size()); });
+    std::vector<std::string> suspicions;
+    Refusals refusals(description_);
+    refusals.attempt("", [&] { suspicions = check_model(built, description_, geometries); });
+    for (std::size_t s = 0; s < description_.stages.size(); ++s)
+        refusals.attempt(fmt::format("stage.{}", s), [&] {
+            IsometryTable().set_generators(image_generators(description_, description_.stages[s]));
+        });
+    progress_.clear();
+    refusals.raise();
+    for (const std::string& warning : suspicions)
+        log_->warn(warning);
 }
 
 void Simulation::prepare(std::optional<ArchiveReader> checkpoint)
@@ -110,6 +126,10 @@ void Simulation::prepare(std::optional<ArchiveReader> checkpoint)
             begin_stage();
         check_fields(description_, registry_, model_, *force_state_);
     });
+    progress_.clear();
+    if (!resumed_ && !options_.stand_in)
+        for (const std::string& warning : check_durations(description_, step_of_dynamic_stages()))
+            log_->warn(warning);
 }
 
 RunOutcome Simulation::run()
@@ -151,10 +171,17 @@ RunOutcome Simulation::run()
     } catch (const std::exception& error) {
         fail(error.what());
     }
-    write_summary("complete", "");
+    write_summary("complete", outputs_.losses().empty() ? "" : "parts of the results are lost, see \"losses\"");
     remove_checkpoints(options_.directory);
     outputs_.clean_up();
     return RunOutcome::complete;
+}
+
+double Simulation::step_of_dynamic_stages() const
+{
+    const StageDescription& stage = description_.stages[at_.stage];
+    const double damping = is_quasi_static(stage) ? local_damping_factor(stage.damping) : 1.0;
+    return description_.time.step.value_or(at_.time_step / damping);
 }
 
 StableStep Simulation::step_of_motion()
@@ -196,7 +223,7 @@ RunOutcome Simulation::stop()
     return RunOutcome::interrupted;
 }
 
-RunDescription Simulation::describe_run() const
+RunDescription Simulation::describe_run()
 {
     RunDescription run;
     run.directory = options_.directory;
@@ -205,7 +232,10 @@ RunDescription Simulation::describe_run() const
     run.provenance = provenance(inputs_, options_.threads);
     run.resumed = resumed_;
     run.resumed_step = at_.step;
-    run.warn = [this](const std::string& text) { log_->warn(text); };
+    run.warn = [this](const std::string& text) {
+        log_->warn(text);
+        outputs_.note_loss(text);
+    };
     return run;
 }
 
@@ -232,6 +262,7 @@ void Simulation::restore(ArchiveReader& checkpoint)
     water_.resume(model_, stage);
     dynamics_.hold(held_directions(model_, description_, held_regions_, stage));
     reports_ = parse_reports(at_.stage_reports, checkpoint.file());
+    outputs_.expect_earlier(options_.directory, options_.without_lost);
     checkpoint_step_ = at_.step;
     log_->info("resumed {} stage '{}' at step {}, time {:.6g} s", at_.begun ? "in" : "before",
                description_.stages[at_.stage].name, at_.step, at_.time);
@@ -253,7 +284,9 @@ void Simulation::begin_stage()
     check_rollers(model_, stage);
     enter_stage(stage);
     if (at_.stage == 0) {
+        progress_.announce([&] { return fmt::format("finding the families of {} points", model_.size()); });
         find_first_families(model_, *force_state_);
+        progress_.clear();
         set_initial_stress(model_, *force_state_, description_);
         log_->info("{} points, {} bonds ({:.1f} a point), {:.1f} MB ({:.1f} kB a point)", model_.size(),
                    model_.neighbourhood.families.bonds(),
@@ -267,6 +300,7 @@ void Simulation::begin_stage()
     water_.begin_stage(model_, stage);
     dynamics_.book(water_.follow(model_, 0.0));
     dynamics_.start();
+    progress_.announce([] { return std::string("estimating the stable step"); });
     renew_step();
 }
 
@@ -353,6 +387,8 @@ void Simulation::renew_step()
     const double step = given.value_or(stable.step);
     const bool news = std::abs(step - at_.time_step) > 0.1 * at_.time_step;
     at_.time_step = step;
+    if (news)
+        progress_.clear();
     if (news && given)
         log_->info("step {:.4g} s as given; the computed one is {:.4g} s", step, stable.step);
     else if (news)
@@ -550,6 +586,8 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
                                        {"crossed_points", contact_.crossed_points().at(c)}});
     summary["outcome"] = outcome;
     summary["message"] = message;
+    if (!outputs_.losses().empty())
+        summary["losses"] = outputs_.losses();
     summary["steps"] = at_.step;
     summary["step_estimates"] = at_.estimates;
     summary["time"] = at_.time;
@@ -558,7 +596,8 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
     summary["point_steps_per_second"] = point_rate;
     summary["provenance"] = provenance(inputs_, options_.threads);
     write_json(summary, options_.directory / "summary.json");
-    log_->info("{}: {} steps, {} wall, {:.3g} point-steps/s, {:.3g} bond-steps/s", outcome, at_.step,
+    const char* lost = outputs_.losses().empty() ? "" : ", but parts of the results are lost";
+    log_->info("{}{}: {} steps, {} wall, {:.3g} point-steps/s, {:.3g} bond-steps/s", outcome, lost, at_.step,
                duration_text(wall_seconds()), point_rate,
                static_cast<double>(model_.neighbourhood.families.bonds()) * steps_per_second);
 }

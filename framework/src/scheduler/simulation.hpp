@@ -8,6 +8,8 @@
 #include "io/archive.hpp"
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
+#include "scheduler/build_model.hpp"
+#include "scheduler/geometries.hpp"
 #include "scheduler/input_hashes.hpp"
 #include "scheduler/interruption.hpp"
 #include "scheduler/output_schedule.hpp"
@@ -31,18 +33,21 @@ namespace periporo {
 class Simulation {
 public:
     /// Builds the model.
+    /// @param geometries of the case, where some are made already; none: the model makes its own
     /// @throws CaseError, PluginError
     Simulation(const CaseDescription& description, const PluginRegistry& registry, const RunOptions& options,
-               InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log);
+               InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log, Geometries* geometries = nullptr);
 
     /// Checks the model and does all that comes before the first step: families, initial stress, stable step; or what a
     /// checkpoint restores. Writes nothing.
-    /// @throws CaseError, ForeignCheckpoint, or ArchiveError
+    /// @throws CaseError, ForeignCheckpoint, ArchiveError, or FolderError when results are gone that the checkpoint
+    /// counts on
     void prepare(std::optional<ArchiveReader> checkpoint = {});
     /// Runs all stages, or those that a checkpoint left over. To be called after prepare().
     RunOutcome run();
 
     const Model& model() const { return model_; }
+    const InputHashes& inputs() const { return inputs_; }
     /// What a user should know of the model as built.
     const std::vector<std::string>& remarks() const { return remarks_; }
     /// The stable step of a dynamic stage, of the model as prepare() leaves it.
@@ -52,7 +57,11 @@ public:
     double seconds_of_a_step(double budget);
 
 private:
-    RunDescription describe_run() const;
+    /// Looks for what would go wrong, and warns of what is suspicious.
+    void check(const BuiltModel& built, Geometries& geometries);
+    RunDescription describe_run();
+    /// About the step of dynamic stages, from the one of the stage that has begun [s].
+    double step_of_dynamic_stages() const;
     RunState state(RunPosition& position);
     void restore(ArchiveReader& checkpoint);
     RunOutcome stop();

@@ -6,7 +6,6 @@
 #include "case/refusal.hpp"
 #include "neighbourhood/families.hpp"
 #include "scheduler/build_model.hpp"
-#include "scheduler/geometries.hpp"
 
 #include <sys/resource.h>
 
@@ -104,15 +103,16 @@ double bytes_of_a_point(const std::string& force_state, double bonds, std::size_
     return kept + bonds * (8.0 + 0.76 * std::pow(bonds, 2.0 / 3.0) * (bonds > 255.0 ? 2.0 : 1.0));
 }
 
-SizeEstimate estimate_size(const CaseDescription& description, const PluginRegistry& registry)
+SizeEstimate estimate_size(const CaseDescription& description, const PluginRegistry& registry, Geometries& geometries)
 {
     SizeEstimate size;
     const double cell = std::pow(description.discretization.spacing, 3);
     size.bonds_of_a_point = lattice_neighbours(description.discretization.horizon_ratio);
-    Geometries geometries(description, registry);
-    for (const BodyDescription& body : description.bodies)
-        refuse_failures(description, "body." + body.name + ".geometry", [&] {
-            const std::shared_ptr<const Geometry> geometry = geometries.make(body.geometry);
+    Refusals refusals(description);
+    for (std::size_t b = 0; b < description.bodies.size(); ++b) {
+        const BodyDescription& body = description.bodies[b];
+        refusals.attempt("body." + body.name + ".geometry", [&] {
+            const std::shared_ptr<const Geometry> geometry = geometries.of_body(b);
             const double points = geometry->volume() / cell * kept_part(description, geometry->bounds());
             size.points_of_bodies.push_back(points);
             size.points += points;
@@ -120,6 +120,8 @@ SizeEstimate estimate_size(const CaseDescription& description, const PluginRegis
                 points * bytes_of_a_point(description.operators.force_state, size.bonds_of_a_point,
                                           make_material(description, body, registry)->state_variables().size());
         });
+    }
+    refusals.raise();
     size.peak_bytes = peak_over_kept * size.bytes;
     return size;
 }
@@ -134,9 +136,9 @@ double available_memory()
     return available;
 }
 
-void check_size(const CaseDescription& description, const PluginRegistry& registry)
+void check_size(const CaseDescription& description, const PluginRegistry& registry, Geometries& geometries)
 {
-    const SizeEstimate size = estimate_size(description, registry);
+    const SizeEstimate size = estimate_size(description, registry, geometries);
     if (size.bonds_of_a_point > largest_family)
         throw refusal(description, "discretization.horizon",
                       fmt::format("a horizon of {:.6g} spacings gives a point {:.4g} bonds, more than {}",

@@ -6,6 +6,7 @@
 
 #include "case/description.hpp"
 #include "plugins/registry.hpp"
+#include "scheduler/geometries.hpp"
 
 #include <string>
 #include <vector>
@@ -30,15 +31,15 @@ struct SizeEstimate {
 /// more than 255 members. The constants are those of blocks of 8,000 points with 29 to 204 bonds each.
 double bytes_of_a_point(const std::string& force_state, double bonds, std::size_t state_variables);
 
-/// @throws CaseError when a geometry cannot be made
-SizeEstimate estimate_size(const CaseDescription& description, const PluginRegistry& registry);
+/// @throws CaseError with every geometry that cannot be made
+SizeEstimate estimate_size(const CaseDescription& description, const PluginRegistry& registry, Geometries& geometries);
 
 /// Memory that this process may still take: what the machine has available, the limit of its control group and that of
 /// the process count [bytes].
 double available_memory();
 
 /// @throws CaseError with the numbers and what to change when the case has more points, bonds or bytes than fit.
-void check_size(const CaseDescription& description, const PluginRegistry& registry);
+void check_size(const CaseDescription& description, const PluginRegistry& registry, Geometries& geometries);
 
 /// "1.2 GB"
 std::string memory_text(double bytes);

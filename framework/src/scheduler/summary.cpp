@@ -50,7 +50,8 @@ nlohmann::json summary_of(const CaseDescription& description, const Model& model
 
 void write_json(const nlohmann::json& content, const std::filesystem::path& file)
 {
-    write_whole(file, content.dump(2) + '\n');
+    // Names of files need not be UTF-8, and a summary does not fail for that.
+    write_whole(file, content.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 
 } // namespace periporo

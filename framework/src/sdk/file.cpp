@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -23,8 +24,10 @@ namespace {
 using std::filesystem::path;
 
 /// What helps against an error of the system.
-const char* way_out(int error)
+const char* way_out(std::string_view deed, int error)
 {
+    if (deed.starts_with("cannot read") && (error == EACCES || error == EPERM))
+        return "; make it readable";
     switch (error) {
     case ENOSPC:
         return "; make room there";
@@ -52,15 +55,20 @@ const char* way_out(int error)
     }
 }
 
+/// Opens a regular file without waiting for the other end of a pipe.
+int open_regular(const path& file, int flags, const char* deed)
+{
+    require_regular(file);
+    const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    if (descriptor < 0)
+        throw FileError(deed, file, errno);
+    return descriptor;
+}
+
 /// Closes a descriptor at the end of its block.
 class Descriptor {
 public:
-    Descriptor(const path& file, int flags, const char* deed)
-        : value_(::open(file.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666))
-    {
-        if (value_ < 0)
-            throw FileError(deed, file, errno);
-    }
+    Descriptor(const path& file, int flags, const char* deed) : value_(open_regular(file, flags, deed)) {}
     ~Descriptor()
     {
         if (value_ >= 0)
@@ -115,7 +123,7 @@ path folder_of(const path& file)
 } // namespace
 
 FileError::FileError(std::string_view deed, const path& file, int error)
-    : std::runtime_error(fmt::format("{} {}: {}{}", deed, file.string(), std::strerror(error), way_out(error))),
+    : std::runtime_error(fmt::format("{} {}: {}{}", deed, file.string(), std::strerror(error), way_out(deed, error))),
       error_(error)
 {
 }
@@ -123,6 +131,18 @@ FileError::FileError(std::string_view deed, const path& file, int error)
 path part_of(path file)
 {
     return file += ".part";
+}
+
+void require_regular(const path& file)
+{
+    struct stat status;
+    if (::lstat(file.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISLNK(status.st_mode))
+        return; // whoever opens the file reports what is wrong with it, and follows no link
+    const char* kind = S_ISDIR(status.st_mode)    ? "a folder"
+                       : S_ISFIFO(status.st_mode) ? "a pipe"
+                       : S_ISSOCK(status.st_mode) ? "a socket"
+                                                  : "a device";
+    throw std::runtime_error(fmt::format("{} is {} and not a regular file; move it away", file.string(), kind));
 }
 
 void synchronize(const path& file)
@@ -184,6 +204,18 @@ std::string read_whole(const path& file)
     }
 }
 
+std::vector<std::string> names_in(const path& folder)
+{
+    std::vector<std::string> names;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        names.push_back(entry->path().filename().string());
+    if (error)
+        throw FileError("cannot read", folder, error.value());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 std::uint64_t size_of_file(const path& file)
 {
     std::error_code error;
@@ -224,9 +256,7 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t before)
 
 AppendedFile::AppendedFile(path file) : file_(std::move(file))
 {
-    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
-    if (descriptor_ < 0)
-        throw FileError("cannot write", file_, errno);
+    descriptor_ = open_regular(file_, O_WRONLY | O_APPEND, "cannot write");
 }
 
 AppendedFile::~AppendedFile()

@@ -187,6 +187,11 @@ void Journal::add(RecordKind kind, std::uint64_t step, std::span<const double> v
     ++next_;
 }
 
+bool Journal::has_records(const std::filesystem::path& file)
+{
+    return size_of_file(file) > header_size;
+}
+
 JournalContent Journal::read() const
 {
     return parse(read_whole(path_), header_, values_, std::numeric_limits<std::uint64_t>::max());

@@ -67,6 +67,8 @@ public:
     bool is_open() const { return file_.is_open(); }
     /// Everything so far.
     JournalContent read() const;
+    /// Does a file hold more than the head of a journal? @throws FileError
+    static bool has_records(const std::filesystem::path& file);
 
 private:
     Journal(std::filesystem::path path, std::size_t values, std::string_view meaning);

@@ -16,7 +16,7 @@ namespace periporo::output {
 
 namespace {
 
-class CsvWriter : public OutputWriter {
+class CsvWriter : public OutputWriter, public EarlierOutputReader {
 public:
     static std::vector<Parameter> parameters() { return {}; }
 
@@ -29,6 +29,13 @@ public:
         columns_ = run.history.size();
         table_ = run.resumed ? HistoryTable::resume(run) : HistoryTable::create(run);
     }
+
+    EarlierOutput earlier_output(const std::filesystem::path& directory) const override
+    {
+        return HistoryTable::look_at(directory);
+    }
+
+    void expect(std::vector<SnapshotMoment>) override {} // it stores none
 
     void snapshot(const Snapshot&) override {}
 

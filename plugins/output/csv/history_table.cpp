@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <set>
@@ -166,6 +167,24 @@ HistoryTable HistoryTable::resume(const RunDescription& run)
         table.journal_.add(RecordKind::row, step, std::vector{static_cast<double>(crc32(row))});
     table.flush(run.resumed_step);
     return table;
+}
+
+EarlierOutput HistoryTable::look_at(const std::filesystem::path& directory)
+{
+    const std::filesystem::path file = directory / csv_name;
+    EarlierOutput found;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file))) {
+        found.missing_record = fmt::format("{}, the rows of the history", csv_name);
+        found.missing_result = csv_name;
+        return found;
+    }
+    const std::string text = read_whole(file);
+    const auto lines = std::count(text.begin(), text.end(), '\n');
+    if (lines > 1)
+        found.holds.push_back(fmt::format("{} rows in {}", lines - 1, csv_name));
+    if (lines < 1) // not even the header
+        found.missing_result = csv_name;
+    return found;
 }
 
 void HistoryTable::add(std::uint64_t step, std::string_view row)

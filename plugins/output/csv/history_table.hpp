@@ -7,6 +7,7 @@
 
 #include "common/journal.hpp"
 
+#include "periporo/earlier_output.hpp"
 #include "periporo/output.hpp"
 
 #include <filesystem>
@@ -27,6 +28,9 @@ public:
     /// Goes on with an earlier one: drops what is later than `run.resumed_step`. A damaged table is kept under another
     /// name, and what is lost is named by `run.warn`.
     static HistoryTable resume(const RunDescription& run);
+
+    /// What a folder holds of an earlier run. Changes nothing.
+    static EarlierOutput look_at(const std::filesystem::path& directory);
 
     /// @param row with its end of line. The row of a step that has one already is left out.
     void add(std::uint64_t step, std::string_view row);

@@ -4,8 +4,12 @@
 // Texts, numbers, arrays and links in HDF5.
 #include "hdf5_objects.hpp"
 
+#include "periporo/file.hpp"
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <fstream>
 
 namespace periporo::output {
 
@@ -61,6 +65,9 @@ void write_values(const H5::Group& group, const std::string& name, const H5::Pre
 
 H5::H5File open_unlocked(const std::filesystem::path& file)
 {
+    errno = 0;
+    if (!std::ifstream(file)) // HDF5 does not pass on why it cannot open a file
+        throw FileError("cannot read", file, errno);
     H5::FileAccPropList access;
     H5Pset_file_locking(access.getId(), false, true);
     return {file.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
@@ -84,6 +91,11 @@ void write_attribute(const H5::H5Object& object, const std::string& name, double
 double read_real_attribute(const H5::H5Object& object, const std::string& name)
 {
     return read_number<double>(object, name, H5::PredType::NATIVE_DOUBLE);
+}
+
+std::int64_t read_whole_attribute(const H5::H5Object& object, const std::string& name)
+{
+    return read_number<std::int64_t>(object, name, H5::PredType::NATIVE_INT64);
 }
 
 void write_text(const H5::Group& group, const std::string& name, const std::string& text)

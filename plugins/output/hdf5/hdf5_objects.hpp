@@ -28,6 +28,7 @@ auto guarded(const std::string& what, const std::filesystem::path& file, Action&
 }
 
 /// Opens a file for reading without locking it: a run must not stop another that looks at its results.
+/// @throws FileError when the system does not let it be read
 H5::H5File open_unlocked(const std::filesystem::path& file);
 
 void write_attribute(const H5::H5Object& object, const std::string& name, const std::string& text);
@@ -35,6 +36,7 @@ void write_attribute(const H5::H5Object& object, const std::string& name, std::i
 void write_attribute(const H5::H5Object& object, const std::string& name, double value);
 
 double read_real_attribute(const H5::H5Object& object, const std::string& name);
+std::int64_t read_whole_attribute(const H5::H5Object& object, const std::string& name);
 
 /// A scalar text of any length in UTF-8.
 void write_text(const H5::Group& group, const std::string& name, const std::string& text);

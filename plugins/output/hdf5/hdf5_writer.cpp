@@ -18,7 +18,7 @@ namespace periporo::output {
 
 namespace {
 
-class Hdf5Writer : public OutputWriter {
+class Hdf5Writer : public OutputWriter, public EarlierOutputReader {
 public:
     static std::vector<Parameter> parameters()
     {
@@ -43,8 +43,16 @@ public:
     void begin(const RunDescription& run) override
     {
         columns_ = run.history.size();
-        results_ = run.resumed ? ResultsParts::resume(run, compression_) : ResultsParts::create(run, compression_);
+        results_ =
+            run.resumed ? ResultsParts::resume(run, compression_, expected_) : ResultsParts::create(run, compression_);
     }
+
+    EarlierOutput earlier_output(const std::filesystem::path& directory) const override
+    {
+        return ResultsParts::look_at(directory);
+    }
+
+    void expect(std::vector<SnapshotMoment> snapshots) override { expected_ = std::move(snapshots); }
 
     void snapshot(const Snapshot& snapshot) override { results_.value().add(snapshot, selected(snapshot)); }
 
@@ -100,7 +108,8 @@ private:
     int compression_;
     std::optional<std::vector<std::string>> chosen_fields_;
     std::size_t columns_ = 0;
-    std::optional<ResultsParts> results_; ///< from begin on
+    std::vector<SnapshotMoment> expected_; ///< of a resumed run
+    std::optional<ResultsParts> results_;  ///< from begin on
 };
 
 } // namespace

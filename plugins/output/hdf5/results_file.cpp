@@ -79,6 +79,25 @@ std::string vertex_list(std::size_t points)
     return fmt::format("/vertices/{}", points);
 }
 
+StoredResults look_at_results(const std::filesystem::path& file)
+{
+    StoredResults stored;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file)))
+        return stored;
+    require_regular(file);
+    try {
+        H5::Exception::dontPrint();
+        const H5::H5File results = open_unlocked(file);
+        stored.snapshots = results.openGroup("/snapshots").getNumObjs();
+        stored.rows =
+            static_cast<std::uint64_t>(results.openDataSet("/history/step").getSpace().getSimpleExtentNpoints());
+        stored.complete = read_whole_attribute(results.openGroup("/"), "complete") == 1;
+    } catch (const H5::Exception&) {
+        stored = {.readable = false};
+    }
+    return stored;
+}
+
 void write_linked_results(const std::filesystem::path& file, const ResultsContent& content, const std::string& parts)
 {
     const std::filesystem::path aside = part_of(file);

@@ -47,6 +47,16 @@ struct ResultsContent {
     bool complete = false;
 };
 
+/// What a result file says of itself.
+struct StoredResults {
+    bool readable = true; ///< or not there
+    bool complete = false;
+    std::uint64_t snapshots = 0;
+    std::uint64_t rows = 0; ///< of the history
+};
+/// @throws FileError when the system does not let it be read
+StoredResults look_at_results(const std::filesystem::path& file);
+
 /// Writes a file whose snapshots are links into `parts`, a folder beside it. @throws FileError
 void write_linked_results(const std::filesystem::path& file, const ResultsContent& content, const std::string& parts);
 

@@ -35,22 +35,9 @@ std::size_t values_of_record(const RunDescription& run)
     return std::max<std::size_t>(run.history.size(), 1);
 }
 
-std::vector<std::string> names_in(const fs::path& folder)
-{
-    std::vector<std::string> names;
-    std::error_code error;
-    const fs::directory_iterator entries(folder, error);
-    if (error)
-        throw FileError("cannot read", folder, error.value());
-    for (const fs::directory_entry& entry : entries)
-        names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 bool is_of_parts(const std::string& name)
 {
-    return number_and_step(name) || name == "journal" || (name.starts_with("vertices-") && name.ends_with(".h5"));
+    return number_and_step(name) || name == journal_name || (name.starts_with("vertices-") && name.ends_with(".h5"));
 }
 
 /// Makes the folder of the parts. Something else of this name, a link to another folder too, gets another name.
@@ -78,12 +65,13 @@ ResultsParts ResultsParts::create(const RunDescription& run, int compression)
     ResultsParts results(run, compression);
     provide_folder(results.parts_, run);
     results.remove_parts(true);
-    results.journal_ = Journal::create(results.parts_ / "journal", values_of_record(run), meaning_of_rows(run));
+    results.journal_ = Journal::create(results.parts_ / journal_name, values_of_record(run), meaning_of_rows(run));
     results.show();
     return results;
 }
 
-ResultsParts ResultsParts::resume(const RunDescription& run, int compression)
+ResultsParts ResultsParts::resume(const RunDescription& run, int compression,
+                                  const std::vector<SnapshotMoment>& expected)
 {
     ResultsParts results(run, compression);
     if (fs::exists(results.file_) && !fs::exists(results.parts_))
@@ -92,10 +80,10 @@ ResultsParts ResultsParts::resume(const RunDescription& run, int compression)
     provide_folder(results.parts_, run);
     results.remove_parts(false);
     JournalContent journal;
-    results.journal_ = Journal::resume(results.parts_ / "journal", values_of_record(run), meaning_of_rows(run),
+    results.journal_ = Journal::resume(results.parts_ / journal_name, values_of_record(run), meaning_of_rows(run),
                                        run.resumed_step, journal);
     results.last_row_ = journal.last_step(RecordKind::row);
-    const std::vector<std::string> later = results.look_at_parts(journal);
+    const std::vector<std::string> later = results.look_at_parts(journal, expected);
     for (const std::string& steps : journal.losses())
         results.missing_.push_back(fmt::format("rows of the history {}", steps));
     if (!results.missing_.empty()) {
@@ -112,16 +100,50 @@ ResultsParts ResultsParts::resume(const RunDescription& run, int compression)
     return results;
 }
 
-std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journal)
+EarlierOutput ResultsParts::look_at(const fs::path& directory)
+{
+    EarlierOutput found;
+    found.snapshots.emplace();
+    const fs::path parts = directory / parts_name;
+    if (fs::is_directory(fs::symlink_status(parts)))
+        for (const std::string& name : names_in(parts)) // a damaged part was named when it was set aside
+            if (const auto known = number_and_step(name.substr(0, name.find(".damaged"))))
+                found.snapshots->push_back(known->second);
+    if (!found.snapshots->empty())
+        found.holds.push_back(fmt::format("{} snapshots in {}", found.snapshots->size(), parts_name));
+    if (fs::exists(fs::symlink_status(parts / journal_name))) {
+        require_regular(parts / journal_name);
+        if (Journal::has_records(parts / journal_name))
+            found.holds.push_back(fmt::format("a history in {}/{}", parts_name, journal_name));
+    } else {
+        found.missing_record = fmt::format("{}/{}, the rows of the history", parts_name, journal_name);
+    }
+    const StoredResults stored = look_at_results(directory / results_name);
+    found.complete = stored.complete;
+    if (!stored.complete)
+        found.missing_result = results_name;
+    if (!stored.readable)
+        found.holds.push_back(fmt::format("{}, damaged", results_name));
+    else if (stored.snapshots + stored.rows > 0)
+        found.holds.push_back(
+            fmt::format("{} snapshots and {} rows in {}", stored.snapshots, stored.rows, results_name));
+    return found;
+}
+
+std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journal,
+                                                     const std::vector<SnapshotMoment>& expected)
 {
     std::vector<std::string> later;
     std::map<std::uint64_t, std::string> lost; // by number, in words
+    for (std::size_t number = 0; number < expected.size(); ++number)
+        lost[number] = fmt::format("snapshot {:06} of step {}, time {:.6g} s", number, expected[number].step,
+                                   expected[number].time);
     std::set<std::uint64_t> recorded;
     for (const JournalRecord& record : journal.records)
         if (record.kind == RecordKind::snapshot) {
             const auto number = static_cast<std::uint64_t>(record.values[0]);
             recorded.insert(number);
-            lost[number] = fmt::format("snapshot {:06} of step {}", number, record.step);
+            lost.try_emplace(number, fmt::format("snapshot {:06} of step {}", number, record.step));
         }
     for (const std::string& name : names_in(parts_)) {
         const auto known = number_and_step(name);
@@ -143,14 +165,14 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
         if (!recorded.contains(number))
             journal_.add(RecordKind::snapshot, step, std::vector{static_cast<double>(number)});
     }
-    next_number_ = snapshots_.empty() ? 0 : snapshots_.back().number + 1;
+    next_number_ = std::max<std::uint64_t>(expected.size(), snapshots_.empty() ? 0 : snapshots_.back().number + 1);
     if (!lost.empty())
         next_number_ = std::max(next_number_, lost.rbegin()->first + 1);
-    std::uint64_t expected = 0;
+    std::uint64_t next = 0;
     for (const StoredSnapshot& snapshot : snapshots_) {
-        for (; expected < snapshot.number; ++expected)
-            lost.try_emplace(expected, fmt::format("snapshot {:06}", expected));
-        expected = snapshot.number + 1;
+        for (; next < snapshot.number; ++next)
+            lost.try_emplace(next, fmt::format("snapshot {:06}", next));
+        next = snapshot.number + 1;
         provide_vertices(snapshot.points);
     }
     for (const auto& [number, words] : lost)
@@ -209,7 +231,7 @@ void ResultsParts::merge()
     journal_.synchronize();
     for (std::size_t s = 0; s < snapshots_.size();) {
         const fs::path part = parts_ / snapshots_[s].part_name();
-        if (fs::exists(part) && is_sound_part(part)) {
+        if (fs::is_regular_file(fs::symlink_status(part)) && is_sound_part(part)) {
             ++s;
             continue;
         }

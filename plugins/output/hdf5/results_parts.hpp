@@ -16,6 +16,7 @@
 
 #include "common/journal.hpp"
 
+#include "periporo/earlier_output.hpp"
 #include "periporo/output.hpp"
 
 #include <filesystem>
@@ -30,6 +31,7 @@ namespace periporo::output {
 inline constexpr const char* results_name = "results.h5";
 inline constexpr const char* xdmf_name = "results.xdmf";
 inline constexpr const char* parts_name = "results.parts";
+inline constexpr const char* journal_name = "journal"; ///< in the folder of parts
 
 /// Every call throws std::runtime_error, mostly FileError, with path and reason when the file system fails.
 class ResultsParts {
@@ -37,7 +39,11 @@ public:
     static ResultsParts create(const RunDescription& run, int compression);
     /// Goes on with earlier parts: drops what is later than `run.resumed_step`. Damaged parts get another name, and
     /// what is lost is named by `run.warn` and in the result file.
-    static ResultsParts resume(const RunDescription& run, int compression);
+    /// @param expected snapshots that the run had stored, each with its place in the list as its number; also fewer
+    static ResultsParts resume(const RunDescription& run, int compression,
+                               const std::vector<SnapshotMoment>& expected = {});
+    /// What a folder holds of an earlier run. Changes nothing.
+    static EarlierOutput look_at(const std::filesystem::path& directory);
 
     /// The snapshot or row of a step that has one already is left out.
     void add(const Snapshot& snapshot, const std::vector<FieldView>& fields);
@@ -52,7 +58,7 @@ public:
 private:
     ResultsParts(const RunDescription& run, int compression);
     /// Reads the parts up to the step that is resumed; @return names of those after it.
-    std::vector<std::string> look_at_parts(const JournalContent& journal);
+    std::vector<std::string> look_at_parts(const JournalContent& journal, const std::vector<SnapshotMoment>& expected);
     void provide_vertices(std::size_t points);
     void write_xdmf() const;
     /// Deletes the files of this class in the folder of parts, all or those of writing aside.

@@ -5,10 +5,13 @@
 #include "io/checkpoint.hpp"
 
 #include "io/case_difference.hpp"
+#include "io/run_folder.hpp"
 #include "support/archives.hpp"
 #include "support/errors.hpp"
 
 #include <doctest/doctest.h>
+
+#include <sys/stat.h>
 
 using namespace periporo;
 using test::check_mentions;
@@ -89,6 +92,18 @@ TEST_CASE("two damaged checkpoints are an error with both names and the way out"
     checkpoints.cut_off(previous_checkpoint_name);
     check_mentions(message_of_error([&] { find_checkpoint(checkpoints.folder.path(), the_case); }),
                    {checkpoint_name, previous_checkpoint_name, "--overwrite"});
+}
+
+TEST_CASE("a checkpoint that cannot be read is neither damaged nor passed over for the one before it")
+{
+    const Checkpoints checkpoints(3);
+    std::filesystem::remove(checkpoints.folder / checkpoint_name);
+    std::filesystem::create_symlink(checkpoint_name, checkpoints.folder / checkpoint_name); // ELOOP, also for root
+    CHECK_THROWS_AS(checkpoints.found(), FolderError);
+    std::filesystem::remove(checkpoints.folder / checkpoint_name);
+    REQUIRE(::mkfifo((checkpoints.folder / checkpoint_name).c_str(), 0600) == 0);
+    check_mentions(message_of_error([&] { find_checkpoint(checkpoints.folder.path(), the_case); }),
+                   {"is a pipe and not a regular file"});
 }
 
 TEST_CASE("a checkpoint of another case names the first key that differs, and one of another version says so")

@@ -8,6 +8,8 @@
 #include "support/plugins.hpp"
 #include "support/temporary_folder.hpp"
 
+#include "periporo/earlier_output.hpp"
+
 #include <doctest/doctest.h>
 
 #include <bit>
@@ -217,4 +219,17 @@ TEST_CASE("a directory that cannot be written is an error with the path and the 
     const auto writer = test::output("csv");
     test::check_mentions(test::message_of_error([&] { writer->begin(test::made_up_run(folder / "file")); }),
                          {(folder / "file" / "history.csv").string(), "Not a directory"});
+}
+
+TEST_CASE("the writer says how many rows it finds of an earlier run, and that a table is gone")
+{
+    const TemporaryFolder folder;
+    const auto writer = test::output("csv");
+    const auto* reader = dynamic_cast<const EarlierOutputReader*>(writer.get());
+    REQUIRE(reader != nullptr);
+    CHECK(reader->earlier_output(folder.path()).holds.empty());
+    CHECK(reader->earlier_output(folder.path()).missing_record.starts_with("history.csv"));
+    test::write_whole_run(*test::output("csv"), folder.path(), 20);
+    CHECK(reader->earlier_output(folder.path()).holds == std::vector<std::string>{"21 rows in history.csv"});
+    CHECK(reader->earlier_output(folder.path()).missing_result.empty());
 }

@@ -9,6 +9,8 @@
 #include "support/plugins.hpp"
 #include "support/temporary_folder.hpp"
 
+#include "periporo/earlier_output.hpp"
+
 #include <doctest/doctest.h>
 
 #include <fcntl.h>
@@ -453,6 +455,49 @@ TEST_CASE("whatever the files are, a checkpoint resumes: without its parts, with
     std::filesystem::remove_all(without / "results.parts");
     test::check_mentions(finish_from(without.path(), 45, 60), {"results.parts is not there", "results.h5.damaged"});
     CHECK(content_of(without / "results.h5").contains("/snapshots/000000/"));
+}
+
+TEST_CASE("the writer says what it finds of an earlier run, before it changes anything")
+{
+    const auto look = [](const std::filesystem::path& folder) {
+        const auto writer = test::output("hdf5");
+        const auto* reader = dynamic_cast<const EarlierOutputReader*>(writer.get());
+        REQUIRE(reader != nullptr);
+        return reader->earlier_output(folder);
+    };
+    const TemporaryFolder folder;
+    CHECK(look(folder.path()).holds.empty());
+    CHECK(look(folder.path()).missing_result == "results.h5");
+    stop_at(folder.path(), 45);
+    CHECK(look(folder.path()).snapshots == std::vector<std::uint64_t>{0, 10, 20, 30, 40});
+    CHECK(look(folder.path()).missing_record.empty());
+    CHECK_FALSE(look(folder.path()).complete);
+    test::check_mentions(fmt::format("{}", fmt::join(look(folder.path()).holds, ", ")),
+                         {"5 snapshots in results.parts", "5 snapshots and 46 rows in results.h5"});
+    finish_from(folder.path(), 45, 60);
+    CHECK(look(folder.path()).complete);
+    CHECK(look(folder.path()).missing_result.empty());
+    std::ofstream(folder / "results.h5", std::ios::trunc) << "no HDF5";
+    CHECK_FALSE(look(folder.path()).complete);
+    CHECK(look(folder.path()).missing_result == "results.h5");
+}
+
+TEST_CASE("a run without its parts goes on with the numbers that its snapshots have, and names those that are lost")
+{
+    const TemporaryFolder folder;
+    stop_at(folder.path(), 45);
+    std::filesystem::remove_all(folder / "results.parts");
+    const auto writer = test::output("hdf5");
+    dynamic_cast<EarlierOutputReader&>(*writer).expect({{0, 0.0}, {10, 0.1}, {20, 0.2}, {30, 0.3}, {40, 0.4}});
+    writer->begin(test::resumed_run(folder.path(), 45));
+    test::give_steps(*writer, 46, 60);
+    writer->finish(true);
+    const auto found = content_of(folder / "results.h5");
+    CHECK_FALSE(found.contains("/snapshots/000000/position"));
+    CHECK(found.contains("/snapshots/000005/position"));
+    CHECK(found.contains("/snapshots/000006/position"));
+    test::check_mentions(found.at("/@missing"),
+                         {"snapshot 000000 of step 0, time 0 s", "snapshot 000004 of step 40, time 0.4 s"});
 }
 
 TEST_CASE("a link in place of the folder of parts is not followed")

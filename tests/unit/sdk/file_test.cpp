@@ -9,8 +9,11 @@
 
 #include <doctest/doctest.h>
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <fstream>
+#include <utility>
 
 using namespace periporo;
 using test::TemporaryFolder;
@@ -91,4 +94,38 @@ TEST_CASE("an appended file grows and is cut, and notices that it was deleted or
     remove_file(folder / "file");
     CHECK_THROWS_AS(file.synchronize(), FileError);
     CHECK_NOTHROW(remove_file(folder / "file"));
+}
+
+TEST_CASE("a pipe, a folder or a device is no file to read or to append to, and nothing waits for its other end")
+{
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "sub");
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    for (const auto& [file, kind] : {std::pair(folder / "pipe", "a pipe"), std::pair(folder / "sub", "a folder"),
+                                     std::pair(std::filesystem::path("/dev/null"), "a device")}) {
+        const std::string words = file.string() + " is " + kind + " and not a regular file";
+        test::check_mentions(test::message_of_error([&] { static_cast<void>(read_whole(file)); }), {words});
+        test::check_mentions(test::message_of_error([&] { AppendedFile appended(file); }), {words});
+        test::check_mentions(test::message_of_error([&] { require_regular(file); }), {words});
+    }
+    REQUIRE(::mkfifo((folder / "file.part").c_str(), 0600) == 0);
+    test::check_mentions(test::message_of_error([&] { write_whole(folder / "file", "text"); }),
+                         {"file.part is a pipe"});
+    CHECK_NOTHROW(require_regular(folder / "none"));
+}
+
+TEST_CASE("the names in a folder are sorted, and a folder that is none is an error")
+{
+    const TemporaryFolder folder;
+    for (const char* name : {"b", "a", "c"})
+        write_whole(folder / name, "");
+    CHECK(names_in(folder.path()) == std::vector<std::string>{"a", "b", "c"});
+    CHECK_THROWS_AS(static_cast<void>(names_in(folder / "a")), FileError);
+    CHECK_THROWS_AS(static_cast<void>(names_in(folder / "none")), FileError);
+}
+
+TEST_CASE("a file that may not be read advises to make it readable, and one that may not be written the folder")
+{
+    test::check_mentions(FileError("cannot read", "out/file", EACCES).what(), {"make it readable"});
+    test::check_mentions(FileError("cannot write", "out/file", EACCES).what(), {"make the folder writable"});
 }
