@@ -91,12 +91,12 @@ MUTATIONS = {
     ),
     "point_variables_not_evened_out": Mutation(
         "operator/refresh.cpp",
-        "bond[r * pack_width] = begun_with(model, i, neighbour, r);",
-        "static_cast<void>(begun_with(model, i, neighbour, r));",
+        "bond[r * pack_width] = initial_on_bond(model.bonds, states, i, neighbour, r);",
+        "static_cast<void>(initial_on_bond(model.bonds, states, i, neighbour, r));",
         _REFRESH,
     ),
     "image_reaction_not_mirrored": Mutation(
-        "operator/bond_forces.cpp", "if (arrival.isometry != 0)", "if (false)", _IDENTITIES
+        "operator/bond_forces.cpp", "if (part.isometry != 0)", "if (false)", _IDENTITIES
     ),
     "pair_taken_for_sound": Mutation(
         "operator/sub_horizon.cpp",
@@ -124,7 +124,7 @@ MUTATIONS = {
     ),
     "water_level_lost_at_resume": Mutation(
         "water/water.cpp",
-        "set_durations(stage);\n    for (std::size_t b = 0; b < bodies_.size(); ++b)\n        model.bodies[b].water_level = level(b);",
+        "set_durations(stage);\n    for (std::size_t b = 0; b < bodies_.size(); ++b)\n        model.state.bodies[b].water_level = level(b);",
         "set_durations(stage);",
         _WATER,
     ),
@@ -137,7 +137,7 @@ MUTATIONS = {
     "no_lift": Mutation("water/standing_water.cpp", "force[i] += now * water.up();", "", _STANDING_WATER),
     "lift_at_once_at_the_surface": Mutation(
         "water/standing_water.cpp",
-        "std::clamp(0.5 - height / model_.spacing, 0.0, 1.0)",
+        "std::clamp(0.5 - height / model_.state.spacing, 0.0, 1.0)",
         "(height < 0.0 ? 1.0 : 0.0)",
         _STANDING_WATER,
         header="water/standing_water.hpp",

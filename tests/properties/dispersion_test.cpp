@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Plane waves: long ones run as fast as the continuum's, the shortest ones are resisted.
-#include "operator/dispersion.hpp"
+#include "diagnostics/dispersion.hpp"
 #include "support/specimens.hpp"
 
 #include <doctest/doctest.h>

@@ -4,8 +4,7 @@
 // The parameter records of every section of a case file.
 #include "case/schema.hpp"
 
-#include "operator/force_state.hpp"
-#include "operator/influence.hpp"
+#include "plugins/built_in.hpp"
 
 namespace periporo {
 namespace {

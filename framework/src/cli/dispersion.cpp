@@ -3,7 +3,7 @@
 //
 // `periporo dispersion CASE`: how fast waves of each length run in the lattice of a case.
 #include "cli/command.hpp"
-#include "scheduler/dispersion_table.hpp"
+#include "diagnostics/dispersion_table.hpp"
 
 #include <fmt/core.h>
 

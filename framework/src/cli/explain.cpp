@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // `periporo explain CASE`: the case in plain words.
+#include "preview/explain.hpp"
 #include "cli/command.hpp"
 #include "cli/threads.hpp"
-#include "scheduler/run.hpp"
+#include "preview/set_up_picture.hpp"
 
 #include <fmt/core.h>
 

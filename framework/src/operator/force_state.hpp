@@ -7,6 +7,7 @@
 #include "model/model.hpp"
 #include "operator/evaluation.hpp"
 #include "operator/influence.hpp"
+#include "plugins/built_in.hpp"
 
 #include <memory>
 #include <span>
@@ -79,10 +80,6 @@ public:
 private:
     Influence influence_;
 };
-
-/// Names for `make_force_state`: "energy_conjugate", "energy_conjugate_mean", "volume_weighted", "bond_projection",
-/// "unstabilized".
-const std::vector<std::string>& force_state_names();
 
 /// @throws std::invalid_argument for a name that is not in force_state_names().
 std::unique_ptr<ForceState> make_force_state(const std::string& name, Influence influence);

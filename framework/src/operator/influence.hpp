@@ -5,6 +5,7 @@
 #pragma once
 
 #include "periporo/pack.hpp"
+#include "plugins/built_in.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -36,17 +37,6 @@ inline constexpr NamedInfluence influence_table[] = {
     {InfluenceKind::inverse_distance, "inverse_distance"},
 };
 
-inline const std::vector<std::string>& influence_names()
-{
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const NamedInfluence& one : influence_table)
-            all.emplace_back(one.name);
-        return all;
-    }();
-    return names;
-}
-
 /// omega for one horizon; `Real` is double or Pack.
 class Influence {
 public:
@@ -63,13 +53,7 @@ public:
     }
 
     /// @throws std::invalid_argument for a name that is not in influence_names().
-    static Influence by_name(const std::string& name, double horizon)
-    {
-        for (const NamedInfluence& one : influence_table)
-            if (one.name == name)
-                return {one.kind, horizon};
-        throw std::invalid_argument("no influence function is called '" + name + "'");
-    }
+    static Influence by_name(const std::string& name, double horizon);
 
     /// Mean of zeta_x^2 over a whole ball, weighted with omega: the shape tensor of a full family is this times its
     /// weight. delta^2/5 for `constant`. [m2]

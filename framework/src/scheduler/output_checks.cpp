@@ -5,7 +5,7 @@
 
 #include "case/diagnostics.hpp"
 #include "case/refusal.hpp"
-#include "scheduler/snapshot_fields.hpp"
+#include "diagnostics/snapshot_fields.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

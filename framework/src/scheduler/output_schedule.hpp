@@ -5,10 +5,10 @@
 #pragma once
 
 #include "case/description.hpp"
+#include "diagnostics/snapshot_fields.hpp"
 #include "model/model.hpp"
 #include "plugins/registry.hpp"
 #include "scheduler/run_position.hpp"
-#include "scheduler/snapshot_fields.hpp"
 #include "time/dynamics.hpp"
 
 #include <filesystem>

@@ -3,7 +3,7 @@
 //
 #include "scheduler/rest.hpp"
 
-#include "scheduler/held_points.hpp"
+#include "assembly/held_points.hpp"
 
 #include <algorithm>
 #include <cmath>

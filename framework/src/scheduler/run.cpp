@@ -1,16 +1,14 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// A run with its log, folder and checkpoint; and the same without a step, for `check`.
 #include "scheduler/run.hpp"
 
 #include "io/checkpoint.hpp"
 #include "periporo/file.hpp"
-#include "scheduler/build_model.hpp"
 #include "scheduler/interruption.hpp"
 #include "scheduler/run_log.hpp"
-#include "scheduler/set_up_picture.hpp"
 #include "scheduler/simulation.hpp"
-#include "scheduler/size_estimate.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -65,13 +63,6 @@ std::vector<std::string> check_case(const CaseDescription& description, const Pl
     Simulation(description, registry, options, interruption, std::make_shared<spdlog::logger>("check", warnings))
         .prepare();
     return warnings->last_formatted();
-}
-
-void draw_case(const CaseDescription& description, const PluginRegistry& registry, const std::filesystem::path& file)
-{
-    Geometries geometries(description, registry);
-    check_size(description, registry, geometries);
-    draw_set_up(build_model(description, registry, geometries), description).save(file);
 }
 
 } // namespace periporo

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "case/description.hpp"
+#include "io/input_hashes.hpp"
 #include "plugins/registry.hpp"
-#include "scheduler/input_hashes.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -45,12 +45,5 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
 /// @return what is suspicious, a text each
 /// @throws CaseError, PluginError as a run of the case would.
 std::vector<std::string> check_case(const CaseDescription& description, const PluginRegistry& registry, bool quiet);
-
-/// The case in plain words: bodies, points, families, stages, stable step, memory and the work ahead.
-std::string explain_case(const CaseDescription& description, const PluginRegistry& registry);
-
-/// Draws the case as it begins into an SVG file; an older one is replaced.
-/// @throws std::runtime_error naming the file when it cannot be written.
-void draw_case(const CaseDescription& description, const PluginRegistry& registry, const std::filesystem::path& file);
 
 } // namespace periporo

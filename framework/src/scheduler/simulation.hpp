@@ -4,13 +4,13 @@
 // The stages of a case in order, with everything that happens between steps.
 #pragma once
 
+#include "assembly/build_model.hpp"
+#include "assembly/geometries.hpp"
 #include "contact/contact_forces.hpp"
 #include "io/archive.hpp"
+#include "io/input_hashes.hpp"
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
-#include "scheduler/build_model.hpp"
-#include "scheduler/geometries.hpp"
-#include "scheduler/input_hashes.hpp"
 #include "scheduler/interruption.hpp"
 #include "scheduler/output_schedule.hpp"
 #include "scheduler/progress.hpp"

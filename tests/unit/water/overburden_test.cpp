@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The weight less buoyancy above a place.
-#include "scheduler/vertical_stress.hpp"
+#include "diagnostics/vertical_stress.hpp"
 #include "support/specimens.hpp"
 #include "water/overburden.hpp"
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pore pressure, saturation and mass of the points of a case.
+#include "assembly/build_model.hpp"
 #include "case/reader.hpp"
 #include "operator/refresh.hpp"
-#include "scheduler/build_model.hpp"
 #include "support/archives.hpp"
 #include "support/case_text.hpp"
 #include "support/errors.hpp"
