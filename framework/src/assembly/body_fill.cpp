@@ -75,12 +75,6 @@ std::vector<double> cell_volumes(const Geometry& geometry, const BodySamples& sa
 
 void check(const FillDescription& fill)
 {
-    if (fill.type != "lattice" && fill.type != "jittered" && fill.type != "relaxed")
-        throw std::invalid_argument(
-            fmt::format("a fill is of type lattice, jittered or relaxed; \"{}\" is none of them", fill.type));
-    if (fill.align != "body" && fill.align != "axes")
-        throw std::invalid_argument(
-            fmt::format("a lattice is aligned with the body or with the axes, not with \"{}\"", fill.align));
     if (!(fill.amplitude >= 0.0 && fill.amplitude < 0.5))
         throw std::invalid_argument(
             fmt::format("the amplitude of a jittered fill is at least 0 and below 0.5; it is {}", fill.amplitude));
@@ -92,10 +86,10 @@ PointCloud fill_body(const Geometry& geometry, double spacing, const FillDescrip
                      const std::function<void(double)>& progress)
 {
     check(fill);
-    PointCloud cloud = fill.align == "body" ? geometry.fill(spacing) : fill_by_lattice(geometry, spacing);
-    if (fill.type == "lattice")
+    PointCloud cloud = fill.align == LatticeAxes::body ? geometry.fill(spacing) : fill_by_lattice(geometry, spacing);
+    if (fill.kind == FillKind::lattice)
         return cloud;
-    const bool is_relaxed = fill.type == "relaxed";
+    const bool is_relaxed = fill.kind == FillKind::relaxed;
     const double amplitude = is_relaxed ? relaxed_amplitude : fill.amplitude;
     jitter(geometry, amplitude * spacing, fill.seed, cloud.positions);
     const BodySamples samples(geometry, spacing);

@@ -32,7 +32,7 @@ bool kept(const CaseDescription& description, const Vector3& x)
 {
     return std::all_of(description.boundaries.begin(), description.boundaries.end(), [&](const auto& boundary) {
         const double beyond = x[boundary.plane.axis] - boundary.plane.offset;
-        return beyond >= 0.0 && (boundary.type != "periodic" || beyond < boundary.period);
+        return beyond >= 0.0 && (boundary.kind != ImageKind::periodic || beyond < boundary.period);
     });
 }
 
@@ -302,7 +302,7 @@ void set_obstacles(Model& model, const CaseDescription& description, const Stage
         const ObstacleDescription& obstacle = description.obstacles[o];
         const bool moves = obstacle.moves_in
                                ? std::ranges::find(*obstacle.moves_in, stage.name) != obstacle.moves_in->end()
-                               : stage.type == "dynamic";
+                               : stage.kind == StageKind::dynamic;
         model.state.obstacles[o].velocity = moves ? obstacle.velocity : Vector3(Vector3::Zero());
         model.state.obstacles[o].present = applies_in(obstacle.stages, stage);
     }
@@ -312,7 +312,7 @@ std::vector<Isometry> image_generators(const CaseDescription& description, const
 {
     std::vector<Isometry> generators;
     for (const BoundaryDescription& boundary : description.boundaries) {
-        if (boundary.type == "periodic")
+        if (boundary.kind == ImageKind::periodic)
             generators.push_back(Isometry::shift(boundary.plane.axis, boundary.period));
         else
             generators.push_back(Isometry::reflection(boundary.plane.axis, boundary.plane.offset));
@@ -352,7 +352,7 @@ void set_initial_stress(Model& model, const ForceState& force_state, const CaseD
     const bool wet = model.ends.wet();
     for (std::size_t i = 0; i < model.size(); ++i) {
         const InitialStressDescription& initial = description.bodies[model.state.points.body[i]].initial_stress;
-        if (initial.type != "geostatic")
+        if (initial.kind != InitialStressKind::geostatic)
             continue;
         const HeldBonds held = model.held(i);
         const Overburden& above = overburden[points.body[i]];

@@ -48,7 +48,7 @@ private:
         };
         bool some = std::ranges::any_of(stage.rollers, holds);
         for (const BoundaryDescription& boundary : description_.boundaries)
-            some = some || (boundary.type == "symmetry" && holds(boundary.plane));
+            some = some || (boundary.kind == ImageKind::symmetry && holds(boundary.plane));
         if (some)
             held_.assign(held_.size(), true);
     }
@@ -58,7 +58,7 @@ private:
         for (std::size_t r = 0; r < description_.held_regions.size(); ++r) {
             const HeldRegionDescription& region = description_.held_regions[r];
             const bool bears_weight =
-                region.type != "roller" || std::abs(region.direction.dot(down_)) > small_component;
+                region.kind != HeldKind::roller || std::abs(region.direction.dot(down_)) > small_component;
             if (!bears_weight || !applies_in(region.stages, stage))
                 continue;
             for (const std::uint32_t i : built_.held_regions[r])
@@ -141,7 +141,7 @@ void check_gravity(const BuiltModel& built, const CaseDescription& description, 
                                                  built.model.state.bodies[b].name, stage.name);
             const std::string way_out = "give a contact with a surface that it falls on, hold some of its points, or "
                                         "turn 'gravity'";
-            if (stage.type == "quasi_static")
+            if (stage.kind == StageKind::quasi_static)
                 throw refusal(description, fmt::format("stage.{}", s), what + ": it never comes to rest", way_out);
             if (is_left_to_gravity(built, description, b))
                 throw refusal(description, "gravity", what + ", and it falls away from the surfaces that it is given",

@@ -36,7 +36,9 @@ bool applies_in(const std::vector<std::string>& stages, const StageDescription& 
 
 std::string describe_region(const HeldRegionDescription& region, std::size_t points)
 {
-    const char* how = region.type == "fixed" ? "fixed" : region.type == "roller" ? "on rollers" : "moved";
+    const char* how = region.kind == HeldKind::fixed    ? "fixed"
+                      : region.kind == HeldKind::roller ? "on rollers"
+                                                        : "moved";
     return fmt::format("{} points are {}{}, those that begin {}", points, how,
                        region.stages.empty() ? "" : fmt::format(" in {}", fmt::join(region.stages, ", ")),
                        conditions_of(region));
@@ -56,12 +58,12 @@ std::vector<std::uint32_t> points_of_region(const Model& model, const HeldRegion
             (within == nullptr || within->contains(x)))
             points.push_back(i);
     }
-    const bool everything = points.size() == model.size() && region.type == "fixed" && region.stages.empty();
+    const bool everything = points.size() == model.size() && region.kind == HeldKind::fixed && region.stages.empty();
     if (points.empty() || everything)
         throw std::runtime_error(
             fmt::format("boundary '{}': {} of the {} points begin {}; a held region needs some, and "
                         "one that is fixed for the whole run leaves others free",
-                        region.type, points.empty() ? "none" : "all", model.size(), conditions_of(region)));
+                        name_of(region.kind), points.empty() ? "none" : "all", model.size(), conditions_of(region)));
     return points;
 }
 
@@ -91,7 +93,7 @@ std::vector<HeldDirection> held_directions(const Model& model, const CaseDescrip
         if (!applies_in(region.stages, stage))
             continue;
         for (const std::uint32_t i : regions[r]) {
-            if (region.type == "roller") {
+            if (region.kind == HeldKind::roller) {
                 held.push_back({i, region.direction});
                 continue;
             }

@@ -215,7 +215,7 @@ bool something_acts(const CaseDescription& description, const StageDescription& 
 {
     const auto moves = [](const BodyDescription& body) {
         return !body.velocity.isZero() || !body.angular_velocity.isZero() || !body.strain_rate.isZero() ||
-               body.water.type != "dry" || body.initial_stress.type != "zero";
+               body.water.kind != WaterKind::dry || body.initial_stress.kind != InitialStressKind::zero;
     };
     return !description.gravity.isZero() || std::ranges::any_of(description.bodies, moves) ||
            std::ranges::any_of(description.obstacles, [](const auto& it) { return !it.velocity.isZero(); }) ||

@@ -22,7 +22,9 @@ constexpr double filled_to_the_side = 0.75; ///< of a spacing, between a side of
 /// Half a spacing, less by how far the fill shifts points [m].
 double first_distance(const Model& model, const FillDescription& fill)
 {
-    const double shift = fill.type == "lattice" ? 0.0 : fill.type == "jittered" ? fill.amplitude : irregular_shift;
+    const double shift = fill.kind == FillKind::lattice    ? 0.0
+                         : fill.kind == FillKind::jittered ? fill.amplitude
+                                                           : irregular_shift;
     return (0.5 - shift) * model.state.spacing;
 }
 
@@ -165,7 +167,7 @@ void check_rollers_of_body(const BodyAtPlanes& body, const CaseDescription& desc
                            std::vector<std::string>& suspicions)
 {
     for (std::size_t s = 0; s < description.stages.size(); ++s) {
-        if (description.stages[s].type != "quasi_static")
+        if (description.stages[s].kind != StageKind::quasi_static)
             return;
         const std::string key = fmt::format("stage.{}.rollers", s);
         for (const PlaneDescription& roller : description.stages[s].rollers)
@@ -184,7 +186,7 @@ void check_planes(const BuiltModel& built, const CaseDescription& description, G
         for (const BoundaryDescription& boundary : description.boundaries) {
             const std::string key = boundary.key + ".plane";
             refusals.attempt(key, [&] {
-                if (boundary.type == "periodic")
+                if (boundary.kind == ImageKind::periodic)
                     return body.check_cut_by_pair(boundary);
                 body.check_cut_by_plane(boundary);
                 body.check_first_points(boundary.plane, key, "symmetry plane", suspicions);

@@ -49,7 +49,7 @@ double kept_part(const CaseDescription& description, const Bounds& bounds)
         const int axis = boundary.plane.axis;
         const double extent = bounds.upper[axis] - bounds.lower[axis];
         const double begin = std::max(bounds.lower[axis], boundary.plane.offset);
-        const double end = boundary.type == "periodic"
+        const double end = boundary.kind == ImageKind::periodic
                                ? std::min(bounds.upper[axis], boundary.plane.offset + boundary.period)
                                : bounds.upper[axis];
         if (extent > 0.0)

@@ -7,6 +7,7 @@
 #include "case/plane.hpp"
 #include "case/table_values.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <optional>
@@ -30,7 +31,8 @@ Eigen::Matrix3d symmetric_matrix_of(const std::vector<double>& list)
 
 DiscretizationDescription discretization_of(const CheckedTable& table)
 {
-    return {table.own.real("spacing"), table.own.real("horizon"), table.own.text("refresh"), table.own.real("skin")};
+    return {table.own.real("spacing"), table.own.real("horizon"), choice_of<RefreshRule>(table.own.text("refresh")),
+            table.own.real("skin")};
 }
 
 MaterialDescription material_of(const CheckedTable& table)
@@ -45,13 +47,13 @@ MaterialDescription material_of(const CheckedTable& table)
 WaterDescription water_of(const CheckedTable& table)
 {
     WaterDescription water;
-    water.type = table.own.text("type");
-    if (water.type == "dry")
+    water.kind = choice_of<WaterKind>(table.own.text("type"));
+    if (water.kind == WaterKind::dry)
         return water;
     water.saturation = optional_real(table.own, "saturation");
-    if (water.type == "uniform") {
+    if (water.kind == WaterKind::uniform) {
         water.suction = table.own.real("suction");
-    } else if (water.type == "hydrostatic") {
+    } else if (water.kind == WaterKind::hydrostatic) {
         water.water_table = parse_plane(table.own.text("water_table"));
         water.largest = optional_real(table.own, "largest_suction");
     } else {
@@ -63,8 +65,8 @@ WaterDescription water_of(const CheckedTable& table)
 InitialStressDescription initial_stress_of(const CheckedTable& table)
 {
     InitialStressDescription stress;
-    stress.type = table.own.text("type");
-    if (stress.type == "geostatic") {
+    stress.kind = choice_of<InitialStressKind>(table.own.text("type"));
+    if (stress.kind == InitialStressKind::geostatic) {
         stress.lateral_coefficient = table.own.real("K0");
         stress.overconsolidation_ratio = table.own.real("overconsolidation_ratio");
     }
@@ -74,13 +76,13 @@ InitialStressDescription initial_stress_of(const CheckedTable& table)
 FillDescription fill_of(const CheckedTable& table)
 {
     FillDescription fill;
-    fill.type = table.own.text("type");
-    fill.align = table.own.text("align");
-    if (fill.type == "jittered")
+    fill.kind = choice_of<FillKind>(table.own.text("type"));
+    fill.align = choice_of<LatticeAxes>(table.own.text("align"));
+    if (fill.kind == FillKind::jittered)
         fill.amplitude = table.own.real("amplitude");
-    if (fill.type != "lattice")
+    if (fill.kind != FillKind::lattice)
         fill.seed = table.own.integer("seed");
-    if (fill.type == "relaxed")
+    if (fill.kind == FillKind::relaxed)
         fill.iterations = table.own.integer("iterations");
     return fill;
 }
@@ -107,16 +109,16 @@ std::string optional_text(const Parameters& values, const std::string& name)
 
 bool makes_images(const CheckedTable& boundary)
 {
-    const std::string& type = boundary.own.text("type");
-    return type == "symmetry" || type == "periodic";
+    const std::vector<std::string> kinds = choice_names<ImageKind>();
+    return std::ranges::find(kinds, boundary.own.text("type")) != kinds.end();
 }
 
 BoundaryDescription boundary_of(const CheckedTable& table)
 {
     BoundaryDescription boundary;
-    boundary.type = table.own.text("type");
+    boundary.kind = choice_of<ImageKind>(table.own.text("type"));
     boundary.plane = parse_plane(table.own.text("plane"));
-    if (boundary.type == "periodic")
+    if (boundary.kind == ImageKind::periodic)
         boundary.period = table.own.real("period");
     return boundary;
 }
@@ -124,7 +126,7 @@ BoundaryDescription boundary_of(const CheckedTable& table)
 HeldRegionDescription held_region_of(const CheckedTable& table)
 {
     HeldRegionDescription region;
-    region.type = table.own.text("type");
+    region.kind = choice_of<HeldKind>(table.own.text("type"));
     if (table.own.has("plane"))
         region.below = parse_plane(table.own.text("plane"));
     for (const std::string& plane : optional_texts(table.own, "layer"))
@@ -132,9 +134,9 @@ HeldRegionDescription held_region_of(const CheckedTable& table)
     region.within = optional_text(table.own, "within");
     region.body = optional_text(table.own, "body");
     region.stages = optional_texts(table.own, "stages");
-    if (region.type == "roller")
+    if (region.kind == HeldKind::roller)
         region.direction = vector_of(table.own.real_list("direction")).normalized();
-    if (region.type == "moving")
+    if (region.kind == HeldKind::moving)
         region.velocity = vector_of(table.own.real_list("velocity"));
     return region;
 }
@@ -160,15 +162,15 @@ StageDescription stage_of(const CheckedTable& table)
 {
     StageDescription stage;
     stage.name = table.own.text("name");
-    stage.type = table.own.text("type");
+    stage.kind = choice_of<StageKind>(table.own.text("type"));
     const Parameters& until = table.one("until").own;
-    if (stage.type == "quasi_static") {
+    if (stage.kind == StageKind::quasi_static) {
         for (const std::string& plane : optional_texts(table.own, "rollers"))
             stage.rollers.push_back(parse_plane(plane));
         stage.residual = until.real("residual");
         stage.damping = table.own.real("damping");
         stage.maximum_steps = table.own.integer("maximum_steps");
-        stage.response = table.own.text("response");
+        stage.response = choice_of<SettlingResponse>(table.own.text("response"));
     } else {
         stage.duration = table.own.real("duration");
         stage.rest_speed = optional_real(until, "rest_speed");

@@ -4,6 +4,7 @@
 // A case file after reading and checking: plain values in SI, nothing left to doubt.
 #pragma once
 
+#include "case/choices.hpp"
 #include "periporo/parameters.hpp"
 #include "periporo/tensor.hpp"
 
@@ -24,10 +25,10 @@ struct PluginChoice {
 };
 
 struct DiscretizationDescription {
-    double spacing = 0.0;                ///< dx [m]
-    double horizon_ratio = 3.015;        ///< delta/dx [-]
-    std::string refresh = "when_needed"; ///< or "every_step"
-    double skin_ratio = 0.1;             ///< relative displacement over dx after which families are found anew [-]
+    double spacing = 0.0;         ///< dx [m]
+    double horizon_ratio = 3.015; ///< delta/dx [-]
+    RefreshRule refresh = RefreshRule::when_needed;
+    double skin_ratio = 0.1; ///< relative displacement over dx after which families are found anew [-]
 
     double horizon() const { return horizon_ratio * spacing; } ///< [m]
     double skin() const { return skin_ratio * spacing; }       ///< [m]
@@ -63,7 +64,7 @@ struct PlaneDescription {
 /// The water in the pores of a body, and around it below a water table. "Dry", S_r = 0 and s = 0, is a state of its
 /// own: the curve of a material gives S_r = 1 at s = 0.
 struct WaterDescription {
-    std::string type = "dry";         ///< or "uniform", "hydrostatic" or "field"
+    WaterKind kind = WaterKind::dry;
     double suction = 0.0;             ///< uniform: s >= 0 [Pa]
     PlaneDescription water_table;     ///< hydrostatic: where the pore pressure is zero
     std::optional<double> largest;    ///< hydrostatic: bound on s [Pa]
@@ -72,7 +73,7 @@ struct WaterDescription {
 };
 
 struct InitialStressDescription {
-    std::string type = "zero";            ///< or "geostatic"
+    InitialStressKind kind = InitialStressKind::zero;
     double lateral_coefficient = 0.0;     ///< K0 [-]
     double overconsolidation_ratio = 1.0; ///< OCR [-]
 };
@@ -85,8 +86,8 @@ struct GeometryDescription {
 
 /// How points fill a body.
 struct FillDescription {
-    std::string type = "lattice"; ///< or "jittered" or "relaxed"
-    std::string align = "body";   ///< the lattice of the geometry itself, or "axes": along the coordinate axes
+    FillKind kind = FillKind::lattice;
+    LatticeAxes align = LatticeAxes::body;
     double amplitude = 0.2;       ///< jittered: largest shift of a point along each axis, in spacings [-]
     std::int64_t iterations = 20; ///< relaxed: most iterations of Lloyd's method
     std::int64_t seed = 1;        ///< of the random numbers
@@ -106,7 +107,7 @@ struct BodyDescription {
 
 /// What makes images of points.
 struct BoundaryDescription {
-    std::string type;       ///< "symmetry" or "periodic"
+    ImageKind kind = ImageKind::symmetry;
     PlaneDescription plane; ///< of a symmetry; the lower side of a periodic pair
     double period = 0.0;    ///< distance between the sides of a periodic pair [m]
     std::string key;        ///< of its place, "boundary.0"
@@ -114,7 +115,7 @@ struct BoundaryDescription {
 
 /// Points with a prescribed motion. Every condition that is given must hold at the start of the run.
 struct HeldRegionDescription {
-    std::string type;                      ///< "fixed", "roller" or "moving"
+    HeldKind kind = HeldKind::fixed;
     std::optional<PlaneDescription> below; ///< coordinates smaller than that of the plane
     std::vector<PlaneDescription> layer;   ///< none, or two: coordinates from that of the one to that of the other
     std::string within;                    ///< name of a geometry, or empty
@@ -151,15 +152,15 @@ struct WaterChangeDescription {
 
 struct StageDescription {
     std::string name;
-    std::string type;                      ///< "quasi_static" or "dynamic"
+    StageKind kind = StageKind::dynamic;
     std::vector<PlaneDescription> rollers; ///< frictionless walls during this stage: planes are symmetry planes, a
                                            ///< cylinder holds the radial velocity of the points beside it
     double residual = 1e-3;                ///< |unbalanced force|/|gravity| to reach; dynamic: on the mean [-]
     double damping = 0.8;                  ///< quasi_static: coefficient of combined local damping [-]
     std::int64_t maximum_steps = 20000;    ///< quasi_static
-    std::string response = "elastic";      ///< quasi_static: "elastic" or "full"
-    double duration = 0.0;                 ///< dynamic [s]
-    std::optional<double> rest_speed;      ///< dynamic: ends early when all bodies have come to rest below it [m/s]
+    SettlingResponse response = SettlingResponse::elastic; ///< quasi_static
+    double duration = 0.0;                                 ///< dynamic [s]
+    std::optional<double> rest_speed; ///< dynamic: ends early when all bodies have come to rest below it [m/s]
     std::vector<WaterChangeDescription> water_changes;
 };
 

@@ -4,7 +4,11 @@
 // The parameter records of every section of a case file.
 #include "case/schema.hpp"
 
+#include "case/description.hpp"
 #include "plugins/built_in.hpp"
+
+#include <algorithm>
+#include <iterator>
 
 namespace periporo {
 namespace {
@@ -12,25 +16,27 @@ namespace {
 TableRules discretization_rules()
 {
     return {{Parameter::real("spacing", dimension::length, "Distance dx between material points").above(0.0),
-             Parameter::real("horizon", dimension::none, "Horizon delta in spacings").above(1.0).by_default(3.015),
+             Parameter::real("horizon", dimension::none, "Horizon delta in spacings")
+                 .above(1.0)
+                 .by_default(DiscretizationDescription{}.horizon_ratio),
              Parameter::text("refresh", "When families are found anew")
-                 .one_of({"when_needed", "every_step"})
-                 .by_default("when_needed"),
+                 .one_of(choice_names<RefreshRule>())
+                 .by_default(name_of(DiscretizationDescription{}.refresh)),
              Parameter::real("skin", dimension::none,
                              "Relative displacement in spacings after which families are found anew")
                  .above(0.0)
                  .at_most(1.0)
-                 .by_default(0.1)}};
+                 .by_default(DiscretizationDescription{}.skin_ratio)}};
 }
 
 TableRules operator_rules()
 {
     return {{Parameter::text("force_state", "Force state of the periporomechanics operator")
                  .one_of(force_state_names())
-                 .by_default("energy_conjugate"),
+                 .by_default(OperatorDescription{}.force_state.c_str()),
              Parameter::text("influence", "Influence function over the length of a bond")
                  .one_of(influence_names())
-                 .by_default("linear")}};
+                 .by_default(OperatorDescription{}.influence.c_str())}};
 }
 
 TableRules time_rules()
@@ -38,7 +44,7 @@ TableRules time_rules()
     return {{Parameter::real("safety", dimension::none, "Factor on the stable time step")
                  .above(0.0)
                  .at_most(1.0)
-                 .by_default(0.85),
+                 .by_default(TimeDescription{}.safety),
              Parameter::real("step", dimension::time,
                              "Fixed time step instead of the computed one; refused when it is not stable")
                  .above(0.0)
@@ -75,31 +81,36 @@ TableRules geometry_rules()
 
 TableRules fill_rules()
 {
-    TableRules rules{
-        {Parameter::text("type", "How points lie").one_of({"lattice", "jittered", "relaxed"}).by_default("lattice"),
-         Parameter::text("align", "Lattice along the axes of the body or of the coordinates")
-             .one_of({"body", "axes"})
-             .by_default("body")}};
-    const Parameter seed = Parameter::integer("seed", "Of the random numbers").at_least(0).by_default(1);
+    TableRules rules{{Parameter::text("type", "How points lie")
+                          .one_of(choice_names<FillKind>())
+                          .by_default(name_of(FillDescription{}.kind)),
+                      Parameter::text("align", "Lattice along the axes of the body or of the coordinates")
+                          .one_of(choice_names<LatticeAxes>())
+                          .by_default(name_of(FillDescription{}.align))}};
+    const Parameter seed =
+        Parameter::integer("seed", "Of the random numbers").at_least(0).by_default(FillDescription{}.seed);
     const Parameter amplitude =
         Parameter::real("amplitude", dimension::none, "Largest shift along each axis, in spacings")
             .above(0.0)
             .below(0.5)
-            .by_default(0.2);
+            .by_default(FillDescription{}.amplitude);
     rules.selector = "type";
     rules.variants = {
         {"lattice", {}},
         {"jittered", {{amplitude, seed}}},
         {"relaxed",
-         {{seed, Parameter::integer("iterations", "Most iterations of Lloyd's method").at_least(1).by_default(20)}}},
+         {{seed, Parameter::integer("iterations", "Most iterations of Lloyd's method")
+                     .at_least(1)
+                     .by_default(FillDescription{}.iterations)}}},
     };
     return rules;
 }
 
 TableRules initial_stress_rules()
 {
-    TableRules rules{
-        {Parameter::text("type", "Effective stress at the start").one_of({"zero", "geostatic"}).by_default("zero")}};
+    TableRules rules{{Parameter::text("type", "Effective stress at the start")
+                          .one_of(choice_names<InitialStressKind>())
+                          .by_default(name_of(InitialStressDescription{}.kind))}};
     rules.selector = "type";
     rules.variants = {
         {"zero", {}},
@@ -107,7 +118,7 @@ TableRules initial_stress_rules()
          {{Parameter::real("K0", dimension::none, "Coefficient of earth pressure at rest").at_least(0.0),
            Parameter::real("overconsolidation_ratio", dimension::none, "Overconsolidation ratio OCR")
                .at_least(1.0)
-               .by_default(1.0)}}},
+               .by_default(InitialStressDescription{}.overconsolidation_ratio)}}},
     };
     return rules;
 }
@@ -123,8 +134,8 @@ TableRules water_rules(std::vector<Parameter> further = {})
             .at_most(1.0)
             .optional();
     TableRules rules{{Parameter::text("type", "Where the pore pressure comes from")
-                          .one_of({"dry", "uniform", "hydrostatic", "field"})
-                          .by_default("dry")}};
+                          .one_of(choice_names<WaterKind>())
+                          .by_default(name_of(WaterDescription{}.kind))}};
     for (Parameter& parameter : further)
         rules.parameters.push_back(std::move(parameter));
     TableRules hydrostatic{
@@ -202,10 +213,17 @@ TableRules image_rules(Parameter plane, std::vector<Parameter> further = {})
     return rules;
 }
 
+/// Boundaries that make images of points, then those that prescribe the motion of points.
+std::vector<std::string> boundary_types()
+{
+    std::vector<std::string> types = choice_names<ImageKind>();
+    std::ranges::move(choice_names<HeldKind>(), std::back_inserter(types));
+    return types;
+}
+
 TableRules boundary_rules()
 {
-    TableRules rules{
-        {Parameter::text("type", "Kind of boundary").one_of({"symmetry", "periodic", "fixed", "roller", "moving"})}};
+    TableRules rules{{Parameter::text("type", "Kind of boundary").one_of(boundary_types())}};
     rules.selector = "type";
     rules.variants = {
         {"symmetry", image_rules(plane_parameter("Symmetry plane, \"x = 0 mm\""))},
@@ -258,11 +276,13 @@ TableRules quasi_static_rules()
          Parameter::real("damping", dimension::none, "Coefficient of combined local damping")
              .above(0.0)
              .below(1.0)
-             .by_default(0.8),
-         Parameter::integer("maximum_steps", "Steps after which the stage has failed").at_least(1).by_default(20000),
+             .by_default(StageDescription{}.damping),
+         Parameter::integer("maximum_steps", "Steps after which the stage has failed")
+             .at_least(1)
+             .by_default(StageDescription{}.maximum_steps),
          Parameter::text("response", "Material response while settling")
-             .one_of({"elastic", "full"})
-             .by_default("elastic")}};
+             .one_of(choice_names<SettlingResponse>())
+             .by_default(name_of(StageDescription{}.response))}};
     rules.planes = {"rollers"};
     rules.nested = {
         {"until",
@@ -272,7 +292,7 @@ TableRules quasi_static_rules()
          {{Parameter::real("residual", dimension::none, "Norm of internal plus external force over that of gravity")
                .above(0.0)
                .below(1.0)
-               .by_default(1e-3)}}}};
+               .by_default(StageDescription{}.residual)}}}};
     return rules;
 }
 
@@ -304,7 +324,7 @@ TableRules dynamic_rules()
 TableRules stage_rules()
 {
     TableRules rules{{Parameter::text("name", "Name of the stage, used once"),
-                      Parameter::text("type", "Kind of stage").one_of({"quasi_static", "dynamic"})}};
+                      Parameter::text("type", "Kind of stage").one_of(choice_names<StageKind>())}};
     rules.nested = {
         {"water", TableShape::list, TablePresence::optional, "What the water of a body becomes during the stage",
          water_rules({Parameter::text("body", "The body"),
@@ -349,14 +369,14 @@ TableRules run_rules()
                  "Wall-clock time between checkpoints; longer where they would take more than a twentieth of it; 0 for "
                  "one after every step, whatever it takes")
                  .at_least(0.0)
-                 .by_default(60.0),
+                 .by_default(CaseDescription{}.checkpoint_every),
              Parameter::real("history_every", dimension::time, "Simulated time between rows of the history")
                  .above(0.0)
-                 .by_default(1e-3),
+                 .by_default(CaseDescription{}.history_every),
              Parameter::real("energy_error_limit", dimension::none,
                              "Energy error, over the energy turned over, beyond which a run stops")
                  .above(0.0)
-                 .by_default(0.1)}};
+                 .by_default(CaseDescription{}.energy_error_limit)}};
 }
 
 TableRules root_rules()

@@ -11,7 +11,7 @@ nlohmann::json summary_of(const CaseDescription& description, const Model& model
 {
     nlohmann::json symmetry = nlohmann::json::array();
     for (const BoundaryDescription& boundary : description.boundaries)
-        if (boundary.type == "symmetry")
+        if (boundary.kind == ImageKind::symmetry)
             symmetry.push_back(std::string(1, "xyz"[boundary.plane.axis]));
     nlohmann::json the_case{{"title", description.title},
                             {"file", description.file.filename().string()},

@@ -62,7 +62,7 @@ std::unique_ptr<Sample> prepared(const CaseDescription& description, const Plugi
     sample->description.time.step.reset();
     if (coarser > 1.0) // which need not divide the edges of a body
         for (BodyDescription& body : sample->description.bodies)
-            body.fill.align = "axes";
+            body.fill.align = LatticeAxes::axes;
     sample->options.quiet = true;
     sample->options.stand_in = coarser > 1.0;
     const auto silent = std::make_shared<spdlog::logger>("explain", std::make_shared<spdlog::sinks::null_sink_mt>());
@@ -107,11 +107,11 @@ std::string body_text(const BodyDescription& body, const Model& model, std::uint
             saturation.add(model.state.points.saturation[i]);
         }
     const std::string points = estimate ? fmt::format("about {:.2g}", *estimate) : fmt::format("{:.0f}", count);
-    std::string text = fmt::format(
-        "  body '{}': {} of '{}', {} points, {:.4g} kg, {}\n", body.name, body.geometry.name, body.material, points,
-        mass,
-        body.water.type == "dry" ? "dry"
-                                 : fmt::format("suction {} Pa at saturation {}", suction.text(), saturation.text()));
+    std::string text = fmt::format("  body '{}': {} of '{}', {} points, {:.4g} kg, {}\n", body.name, body.geometry.name,
+                                   body.material, points, mass,
+                                   body.water.kind == WaterKind::dry ? "dry"
+                                                                     : fmt::format("suction {} Pa at saturation {}",
+                                                                                   suction.text(), saturation.text()));
     if (model.state.bodies[b].has_standing_water())
         text += fmt::format("    {:.1f} per cent of its volume below the water table, saturated and buoyant\n",
                             100.0 * below / volume);
@@ -163,7 +163,7 @@ std::string stages_text(const CaseDescription& description, const std::optional<
 {
     std::string text;
     for (const StageDescription& stage : description.stages) {
-        if (stage.type == "quasi_static") {
+        if (stage.kind == StageKind::quasi_static) {
             text += fmt::format("  stage '{}': settles under gravity until the residual is {:.1e}, at most {} steps\n",
                                 stage.name, stage.residual, stage.maximum_steps);
             continue;
@@ -171,8 +171,8 @@ std::string stages_text(const CaseDescription& description, const std::optional<
         text += fmt::format("  stage '{}': {:.4g} s{}\n", stage.name, stage.duration,
                             step ? fmt::format(", {:.6g} steps", std::ceil(stage.duration / *step)) : "");
         for (const WaterChangeDescription& change : stage.water_changes)
-            text += fmt::format("    the water of '{}' becomes {} within {:.4g} s\n", change.body, change.water.type,
-                                change.over);
+            text += fmt::format("    the water of '{}' becomes {} within {:.4g} s\n", change.body,
+                                name_of(change.water.kind), change.over);
     }
     return text;
 }
@@ -211,7 +211,7 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     text += step_text(description, stable, sample->coarser, step) + stages_text(description, step);
     double steps = 0.0;
     for (const StageDescription& stage : description.stages)
-        steps += stage.type == "quasi_static" ? 0.0 : stage.duration / step;
+        steps += stage.kind == StageKind::quasi_static ? 0.0 : stage.duration / step;
     const double more_points =
         sample->coarser == 1.0 ? 1.0 : size.points / static_cast<double>(sample->simulation->model().size());
     const double seconds = steps * more_points * sample->simulation->seconds_of_a_step(measured_seconds);

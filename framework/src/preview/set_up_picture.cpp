@@ -209,7 +209,7 @@ void draw_planes(View& view, const Bounds& box, const CaseDescription& descripti
         view.label(to, text);
     };
     for (const BoundaryDescription& boundary : description.boundaries)
-        draw(boundary.plane, boundary.type);
+        draw(boundary.plane, name_of(boundary.kind));
     for (const PlaneDescription& roller : description.stages.front().rollers)
         if (roller.axis != cylinder_axis)
             draw(roller, "roller");

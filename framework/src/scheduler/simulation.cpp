@@ -41,12 +41,12 @@ public:
 
 DynamicsSettings settings_of(const CaseDescription& description)
 {
-    return {description.discretization.skin(), description.discretization.refresh == "every_step"};
+    return {description.discretization.skin(), description.discretization.refresh == RefreshRule::every_step};
 }
 
 bool is_quasi_static(const StageDescription& stage)
 {
-    return stage.type == "quasi_static";
+    return stage.kind == StageKind::quasi_static;
 }
 
 /// Reports of the stages that are done, as a checkpoint has them.
@@ -199,7 +199,8 @@ double Simulation::seconds_of_a_step(double budget)
     StepOptions options;
     if (is_quasi_static(stage)) {
         options.local_damping = stage.damping;
-        options.response = stage.response == "elastic" ? MaterialResponse::elastic : MaterialResponse::full;
+        options.response =
+            stage.response == SettlingResponse::elastic ? MaterialResponse::elastic : MaterialResponse::full;
     }
     for (int n = 0; n < cold_steps; ++n)
         take_step(options);
@@ -320,7 +321,7 @@ void Simulation::end_stage()
     const StageDescription& stage = description_.stages[at_.stage];
     check_motion();
     nlohmann::json report{{"name", stage.name},
-                          {"type", stage.type},
+                          {"type", name_of(stage.kind)},
                           {"steps", at_.stage_step},
                           {"time_step", at_.time_step},
                           {"end_time", at_.time},
@@ -328,8 +329,9 @@ void Simulation::end_stage()
                           {"residual", dynamics_.residual()},
                           {"mean_speed", dynamics_.mean_speed()}};
     if (is_quasi_static(stage)) {
-        const auto settled = std::ranges::find_if(
-            description_.bodies, [](const BodyDescription& body) { return body.initial_stress.type == "geostatic"; });
+        const auto settled = std::ranges::find_if(description_.bodies, [](const BodyDescription& body) {
+            return body.initial_stress.kind == InitialStressKind::geostatic;
+        });
         const auto body = settled == description_.bodies.end()
                               ? 0u
                               : static_cast<std::uint32_t>(settled - description_.bodies.begin());
@@ -341,7 +343,7 @@ void Simulation::end_stage()
                        description_.bodies[body].name, 100.0 * profile->largest_deviation,
                        100.0 * profile->inner_deviation);
         }
-        if (stage.response == "elastic")
+        if (stage.response == SettlingResponse::elastic)
             initialize_materials(model_, *force_state_);
     } else {
         outputs_.write_history(model_, dynamics_, at_);
@@ -430,7 +432,7 @@ bool Simulation::quasi_static(const StageDescription& stage)
 {
     StepOptions options;
     options.local_damping = stage.damping;
-    options.response = stage.response == "elastic" ? MaterialResponse::elastic : MaterialResponse::full;
+    options.response = stage.response == SettlingResponse::elastic ? MaterialResponse::elastic : MaterialResponse::full;
     // At rest means slower than one would become by falling over one spacing, by the tolerance of the residual. Without
     // gravity the unbalanced force at the start sets the acceleration.
     const auto rest = [&] { return stage.residual * std::sqrt(dynamics_.acceleration_scale() * model_.state.spacing); };

@@ -88,9 +88,9 @@ private:
 
 std::unique_ptr<PressureField> make_pressure_field(const WaterDescription& water, const Vector3& gravity)
 {
-    if (water.type == "hydrostatic")
+    if (water.kind == WaterKind::hydrostatic)
         return std::make_unique<Hydrostatic>(water, gravity);
-    if (water.type == "field")
+    if (water.kind == WaterKind::field)
         return std::make_unique<NearestRow>(water.file);
     return std::make_unique<Uniform>(water.suction);
 }

@@ -35,7 +35,7 @@ std::unique_ptr<PressureField> field_of(const CaseDescription& description, cons
 /// Height of the water table of a body [m].
 double level_of(const WaterDescription& water, const Vector3& up)
 {
-    return water.type == "hydrostatic" ? up[water.water_table.axis] * water.water_table.offset : no_water;
+    return water.kind == WaterKind::hydrostatic ? up[water.water_table.axis] * water.water_table.offset : no_water;
 }
 
 bool is_dry(double pressure, double saturation)
@@ -60,7 +60,7 @@ Water::Water(const CaseDescription& description, const PluginRegistry& registry)
 
 double Water::given_saturation(std::size_t body, const WaterDescription& water, double pressure, double porosity) const
 {
-    if (water.type == "dry")
+    if (water.kind == WaterKind::dry)
         return 0.0;
     return bodies_[body].curve ? bodies_[body].curve->saturation(suction_of(pressure), porosity)
                                : water.saturation.value();

@@ -28,8 +28,8 @@ TEST_CASE("a minimal case gets the documented defaults")
     CHECK(read.outputs.empty());
     CHECK(read.warnings.empty());
     const BodyDescription body;
-    CHECK(read.bodies.at(0).initial_stress.type == body.initial_stress.type);
-    CHECK(read.bodies.at(0).water.type == body.water.type);
+    CHECK(read.bodies.at(0).initial_stress.kind == body.initial_stress.kind);
+    CHECK(read.bodies.at(0).water.kind == body.water.kind);
     CHECK(read.bodies.at(0).velocity == body.velocity);
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("sections of the framework arrive in SI")
     CHECK(read.gravity == Vector3(1.0, 0.0, -9.8));
     CHECK(read.discretization.spacing == 0.005);
     CHECK(read.discretization.horizon_ratio == 2.1);
-    CHECK(read.discretization.refresh == "every_step");
+    CHECK(read.discretization.refresh == RefreshRule::every_step);
     CHECK(read.discretization.skin_ratio == 0.25);
     CHECK(read.operators.force_state == "bond_projection");
     CHECK(read.operators.influence == "linear");
@@ -112,7 +112,7 @@ TEST_CASE("a body knows geometry, material, water, velocity and initial stress")
     CHECK(body.geometry.parameters.real("inner") == 0.01);
     CHECK(body.geometry.parameters.real_list("centre") == std::vector<double>{0.0, 0.0, 1.0});
     CHECK(body.material == "soil");
-    CHECK(body.water.type == "uniform");
+    CHECK(body.water.kind == WaterKind::uniform);
     CHECK(body.water.suction == 20e3);
     CHECK(body.water.saturation == 0.3);
     CHECK(body.velocity == Vector3(0.0, 0.001, 0.0));
@@ -120,7 +120,7 @@ TEST_CASE("a body knows geometry, material, water, velocity and initial stress")
     CHECK(body.strain_rate.row(0) == Eigen::RowVector3d(1.0, 4.0, 5000.0));
     CHECK(body.strain_rate.row(1) == Eigen::RowVector3d(4.0, 2.0, 0.0));
     CHECK(body.strain_rate.row(2) == Eigen::RowVector3d(5000.0, 0.0, -3.0));
-    CHECK(body.initial_stress.type == "geostatic");
+    CHECK(body.initial_stress.kind == InitialStressKind::geostatic);
     CHECK(body.initial_stress.lateral_coefficient == 0.53);
     CHECK(body.initial_stress.overconsolidation_ratio == 1.25);
 }
@@ -129,7 +129,7 @@ TEST_CASE("boundaries, contacts, stages and outputs keep their order and values"
 {
     const CaseDescription read = read_text(full_case);
     REQUIRE(read.boundaries.size() == 2);
-    CHECK(read.boundaries[0].type == "symmetry");
+    CHECK(read.boundaries[0].kind == ImageKind::symmetry);
     CHECK(read.boundaries[0].plane.axis == 1);
     CHECK(read.boundaries[0].plane.offset == -0.1);
     CHECK(read.boundaries[1].period == 1.0);
@@ -144,7 +144,7 @@ TEST_CASE("boundaries, contacts, stages and outputs keep their order and values"
     CHECK(read.stages[0].residual == 1e-4);
     CHECK(read.stages[0].damping == 0.7);
     CHECK(read.stages[0].maximum_steps == 100);
-    CHECK(read.stages[0].response == "full");
+    CHECK(read.stages[0].response == SettlingResponse::full);
     CHECK(read.stages[1].duration == 0.5);
     CHECK(read.stages[1].rest_speed == 0.005);
     CHECK(read.stages[1].residual == 0.01);

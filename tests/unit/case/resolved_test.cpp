@@ -41,19 +41,19 @@ void check_same(const CaseDescription& a, const CaseDescription& b)
         CHECK(a.bodies[i].name == b.bodies[i].name);
         check_same(a.bodies[i].geometry, b.bodies[i].geometry);
         CHECK(a.bodies[i].material == b.bodies[i].material);
-        CHECK(a.bodies[i].water.type == b.bodies[i].water.type);
+        CHECK(a.bodies[i].water.kind == b.bodies[i].water.kind);
         CHECK(a.bodies[i].water.suction == b.bodies[i].water.suction);
         CHECK(a.bodies[i].water.saturation == b.bodies[i].water.saturation);
         CHECK(a.bodies[i].velocity == b.bodies[i].velocity);
         CHECK(a.bodies[i].angular_velocity == b.bodies[i].angular_velocity);
         CHECK(a.bodies[i].strain_rate == b.bodies[i].strain_rate);
-        CHECK(a.bodies[i].initial_stress.type == b.bodies[i].initial_stress.type);
+        CHECK(a.bodies[i].initial_stress.kind == b.bodies[i].initial_stress.kind);
         CHECK(a.bodies[i].initial_stress.lateral_coefficient == b.bodies[i].initial_stress.lateral_coefficient);
         CHECK(a.bodies[i].initial_stress.overconsolidation_ratio == b.bodies[i].initial_stress.overconsolidation_ratio);
     }
     REQUIRE(a.boundaries.size() == b.boundaries.size());
     for (std::size_t i = 0; i < a.boundaries.size(); ++i) {
-        CHECK(a.boundaries[i].type == b.boundaries[i].type);
+        CHECK(a.boundaries[i].kind == b.boundaries[i].kind);
         CHECK(a.boundaries[i].plane.axis == b.boundaries[i].plane.axis);
         CHECK(a.boundaries[i].plane.offset == b.boundaries[i].plane.offset);
         CHECK(a.boundaries[i].period == b.boundaries[i].period);
@@ -66,7 +66,7 @@ void check_same(const CaseDescription& a, const CaseDescription& b)
     REQUIRE(a.stages.size() == b.stages.size());
     for (std::size_t i = 0; i < a.stages.size(); ++i) {
         CHECK(a.stages[i].name == b.stages[i].name);
-        CHECK(a.stages[i].type == b.stages[i].type);
+        CHECK(a.stages[i].kind == b.stages[i].kind);
         REQUIRE(a.stages[i].rollers.size() == b.stages[i].rollers.size());
         for (std::size_t j = 0; j < a.stages[i].rollers.size(); ++j) {
             CHECK(a.stages[i].rollers[j].axis == b.stages[i].rollers[j].axis);

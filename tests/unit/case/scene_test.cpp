@@ -28,8 +28,8 @@ TEST_CASE("geometries, obstacles, held regions and fills arrive in the descripti
     CHECK(read.held_regions[2].stages == std::vector<std::string>{"settle"});
     CHECK(read.contacts[1].surface == "heap");
     CHECK(read.contacts[2].between[1] == "plate");
-    CHECK(read.bodies[0].fill.type == "jittered");
-    CHECK(read.bodies[0].fill.align == "axes");
+    CHECK(read.bodies[0].fill.kind == FillKind::jittered);
+    CHECK(read.bodies[0].fill.align == LatticeAxes::axes);
     CHECK(read.bodies[0].fill.amplitude == 0.1);
     CHECK(read.bodies[0].fill.seed == 5);
     CHECK(read.bodies[1].fill.iterations == 7);

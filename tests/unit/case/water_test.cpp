@@ -23,7 +23,7 @@ std::string with_water(const std::string& water)
 TEST_CASE("a body is dry when nothing is said of its water")
 {
     const CaseDescription read = read_text(minimal_case);
-    CHECK(read.bodies.at(0).water.type == "dry");
+    CHECK(read.bodies.at(0).water.kind == WaterKind::dry);
     CHECK(!read.materials.at(0).retention);
 }
 
@@ -35,7 +35,7 @@ TEST_CASE("a water table, a bound on the suction and a saturation are read")
                        "saturation = 0.4 }"))
             .bodies.at(0)
             .water;
-    CHECK(water.type == "hydrostatic");
+    CHECK(water.kind == WaterKind::hydrostatic);
     CHECK(water.water_table.axis == 2);
     CHECK(water.water_table.offset == -2.0);
     CHECK(water.largest == 9e3);

@@ -102,9 +102,9 @@ TEST_CASE("a law that throws, and a modulus that does, reach the caller from eve
 
 TEST_CASE("a geometry that throws while points are moved in it reaches the caller")
 {
-    for (const std::string type : {"jittered", "relaxed"}) {
+    for (const FillKind kind : {FillKind::jittered, FillKind::relaxed}) {
         FillDescription fill;
-        fill.type = type;
+        fill.kind = kind;
         with_threads([&] { CHECK_THROWS_WITH(fill_body(Doubtful(), 0.01, fill), "the geometry has thrown"); });
     }
 }

@@ -332,7 +332,7 @@ TEST_CASE("soil that sinks into standing water fills and loses its suction, even
     // a change of its water starts from what it holds
     StageDescription drying = block.description.stages[0];
     WaterDescription uniform;
-    uniform.type = "uniform";
+    uniform.kind = WaterKind::uniform;
     uniform.suction = 2e3;
     uniform.saturation = 0.2;
     drying.water_changes = {{"block", uniform, 1.0}};
