@@ -1,33 +1,18 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the commands share. Each command adds itself to the program and, when it is the one that was asked for, leaves
-// its action behind.
+// The commands of the program, each with its arguments as the command line gives them (command_line.hpp).
 #pragma once
 
 #include "case/reader.hpp"
 #include "cli/exit_status.hpp"
-
-#include <CLI/CLI.hpp>
+#include "scheduler/run.hpp"
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace periporo::cli {
-
-/// What the chosen command will do once the command line is understood.
-using Action = std::function<ExitStatus()>;
-
-void add_run_command(CLI::App& program, Action& action);
-void add_check_command(CLI::App& program, Action& action);
-void add_explain_command(CLI::App& program, Action& action);
-void add_inspect_command(CLI::App& program, Action& action);
-void add_dispersion_command(CLI::App& program, Action& action);
-void add_drive_command(CLI::App& program, Action& action);
-void add_schema_command(CLI::App& program, Action& action);
-void add_new_command(CLI::App& program, Action& action);
 
 /// What every command about a case understands.
 struct CaseArguments {
@@ -35,13 +20,56 @@ struct CaseArguments {
     CaseOptions options;
 };
 
-/// Adds CASE, --set and --plugin-path.
-void add_case_arguments(CLI::App& command, CaseArguments& arguments);
-
-/// Adds --plugin-path.
-void add_plugin_path(CLI::App& command, std::vector<std::filesystem::path>& folders);
-
 /// Reads and checks the case and prints its warnings to standard error.
 CaseDescription read_case_loudly(const CaseArguments& arguments, PluginRegistry& registry);
+
+struct RunArguments {
+    CaseArguments the_case;
+    RunOptions options;
+    bool overwrite = false;
+};
+ExitStatus run(RunArguments arguments);
+
+ExitStatus check(const CaseArguments& arguments);
+
+struct ExplainArguments {
+    CaseArguments the_case;
+    int threads = 0;     ///< 0 for as many as OpenMP offers
+    std::string picture; ///< an SVG file to draw; empty for none
+};
+ExitStatus explain(const ExplainArguments& arguments);
+
+struct InspectArguments {
+    std::string name; ///< of a plugin; empty for all
+    bool markdown = false;
+    bool json = false;
+    std::vector<std::filesystem::path> plugin_folders;
+};
+ExitStatus inspect(const InspectArguments& arguments);
+
+struct DispersionArguments {
+    CaseArguments the_case;
+    int cells = 12; ///< points of a curve
+};
+ExitStatus print_dispersion(const DispersionArguments& arguments);
+
+struct DriveArguments {
+    CaseArguments path;
+    std::filesystem::path folder; ///< of the results; empty for the one named after the path
+};
+ExitStatus drive(DriveArguments arguments);
+
+struct SchemaArguments {
+    std::vector<std::filesystem::path> plugin_folders;
+};
+ExitStatus print_schema(const SchemaArguments& arguments);
+
+struct NewArguments {
+    std::string kind;
+    std::string name;
+    std::filesystem::path folder; ///< empty for ./NAME
+    std::vector<std::filesystem::path> plugin_folders;
+};
+ExitStatus write_new_plugin(const NewArguments& arguments);
 
 } // namespace periporo::cli
