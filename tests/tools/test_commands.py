@@ -202,7 +202,7 @@ class Build(Tree):
     def test_off_a_terminal_it_shows_a_step_now_and_then_and_every_message(self):
         self.stand_in(
             self.here / "bin/ninja",
-            'for step in 1 2 3; do echo "${NINJA_STATUS/\\%f/$step}source"; done; echo "source: a message"; exit 1',
+            'echo "ninja: no work to do."; for step in 1 2 3; do echo "${NINJA_STATUS/\\%f/$step}source"; done; echo "source: a message"; exit 1',
         )
         done = self.called()
         self.assertEqual(done.returncode, 1)
