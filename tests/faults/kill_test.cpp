@@ -4,7 +4,7 @@
 // A run that is killed at any call on its folder, and resumed, ends at the same bits as one that never was.
 //
 // The suite tries a spread of the calls. All of them, which takes some minutes:
-//     PERIPORO_LONG_TESTS=1 build/release/bin/faults.kill_test
+//     PERIPORO_LONG_TESTS=1 build/release/bin/faults --source-file='*/kill_test.cpp'
 #include "faults/faulty_run.hpp"
 
 #include <set>

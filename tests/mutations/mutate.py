@@ -4,11 +4,12 @@
 """Breaks the operator, the water and the checkpoints on purpose and demands that a test notices.
 
 A mutation replaces one text in one source. The mutated source is compiled with the command of the build, linked in
-front of the framework's library into a test program, and the program must report a failed check.
+front of the framework's library into a test program, and one test of the program must report a failed check.
 """
 from __future__ import annotations
 
 import argparse
+import re
 import shlex
 import subprocess
 import sys
@@ -23,12 +24,20 @@ class Mutation:
     source: str  # below framework/src, compiled anew
     text: str  # stands exactly once in `place`
     becomes: str
-    test: str  # test program that must fail
+    test: str  # test that must fail, by its name in ctest
     header: str = ""  # where the text stands, when not in the source itself
 
     @property
     def place(self) -> str:
         return self.header or self.source
+
+    @property
+    def program(self) -> str:
+        return self.test.rpartition(".")[0]
+
+    @property
+    def test_source(self) -> str:
+        return self.test.rpartition(".")[2] + ".cpp"
 
 
 _IDENTITIES = "properties.operator_identities_test"
@@ -217,17 +226,17 @@ def survives(name: str, source: Path, build: Path) -> bool:
     """True when the test program passes all the same."""
     mutation = MUTATIONS[name]
     folder = build / "mutations" / name
-    commands = _build_commands(build, f"bin/{mutation.test}")
+    commands = _build_commands(build, f"bin/{mutation.program}")
     file = _write_mutated(mutation, source, folder)
     mutated = _compile(str(source / "framework/src" / mutation.source), file, folder, commands, build)
-    program = folder / mutation.test
+    program = folder / mutation.program
     library = "framework/libperiporo_framework.a"
     link = commands[-1].replace(library, f"{mutated} {library}", 1)
-    link = link.replace(f"-o bin/{mutation.test}", f"-o {program}", 1)
+    link = link.replace(f"-o bin/{mutation.program}", f"-o {program}", 1)
     _must(link, build)
-    outcome = _run(str(program), build)
+    outcome = _run(f"{shlex.quote(str(program))} --source-file='*/{mutation.test_source}'", build)
     print(outcome.stdout[-3000:])
-    if outcome.returncode not in (0, 1) or "[doctest] test cases:" not in outcome.stdout:
+    if outcome.returncode not in (0, 1) or not re.search(r"\[doctest\] test cases: +[1-9]", outcome.stdout):
         sys.exit(f"{mutation.test} did not run to its end: status {outcome.returncode}\n{outcome.stderr}")
     return outcome.returncode == 0
 

@@ -165,6 +165,12 @@ class Setup(Tree):
         self.assertEqual(done.returncode, 1)
         self.assertIn("no network", done.stderr)
 
+    def test_what_apt_does_is_shown_now_and_then(self):
+        self.installed([])
+        self.stand_in(self.bin / "apt-get", "echo Reading lists; echo more of it")
+        lines = self.called().stdout.splitlines()
+        self.assertEqual(lines[1:], 2 * ["setup: Reading lists"])  # of update and of install
+
     def test_an_unknown_argument_is_the_users_error(self):
         self.assertEqual(self.called("--fast").returncode, 2)
 
@@ -190,10 +196,17 @@ class Build(Tree):
     def test_it_sets_up_configures_and_builds_in_this_order_and_says_one_line(self):
         done = self.called()
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(
-            self.noted(), ["setup ", "cmake --preset release", "ninja -C build/release -j 3 --quiet"]
-        )
+        self.assertEqual(self.noted(), ["setup ", "cmake --preset release", "ninja -C build/release -j 3"])
         self.assertEqual(done.stdout.splitlines(), ["build: build/release, 3 at a time"])
+
+    def test_off_a_terminal_it_shows_a_step_now_and_then_and_every_message(self):
+        self.stand_in(
+            self.here / "bin/ninja",
+            'echo "ninja: no work to do."; for step in 1 2 3; do echo "${NINJA_STATUS/\\%f/$step}source"; done; echo "source: a message"; exit 1',
+        )
+        done = self.called()
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stdout.splitlines()[1:], ["build: [1/%t] source", "source: a message"])
 
     def test_when_cmake_fails_its_output_is_shown_and_nothing_is_built(self):
         self.stand_in(self.here / "bin/cmake", "echo no such package >&2; exit 1")

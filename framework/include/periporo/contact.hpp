@@ -6,7 +6,7 @@
 #pragma once
 
 #include "periporo/plugin.hpp"
-#include "periporo/tensor.hpp"
+#include "periporo/vector.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "periporo/plugin.hpp"
-#include "periporo/tensor.hpp"
+#include "periporo/vector.hpp"
 
 #include <array>
 #include <cstddef>

@@ -13,8 +13,6 @@
 #include "periporo/material.hpp"
 #include "periporo/tensor.hpp"
 
-#include <Eigen/QR>
-
 #include <array>
 #include <cmath>
 #include <vector>
@@ -38,6 +36,10 @@ inline double equivalent_shear_strain(const SymmetricTensor<double>& strain)
 {
     return std::sqrt(2.0 / 3.0) * norm(deviator(strain));
 }
+
+/// The x of least length among those that bring `matrix` x nearest to `right`. Pivots below `zero` times the largest
+/// count as none.
+Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, double zero);
 
 /// A step with each component under control of stress or of strain.
 struct MixedStep {
@@ -221,11 +223,9 @@ private:
             MaterialStatus status;
             tangent.col(d) = ((residual(probed, status) - at_strain) / probe)(controlled);
         }
-        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(size, size);
-        decomposition.setThreshold(1e-8); // what differences leave of a zero
-        decomposition.compute(tangent);
+        constexpr double zero = 1e-8; // what differences leave of it
         Components step = Components::Zero();
-        step(controlled) = -decomposition.solve(Eigen::VectorXd(at_strain(controlled)));
+        step(controlled) = -shortest_solution(tangent, at_strain(controlled), zero);
         return step;
     }
 

@@ -4,6 +4,8 @@
 // Packs of doubles and the few functions that let a law be written once for `double` and for packs.
 #pragma once
 
+#include "periporo/target.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -16,8 +18,7 @@ namespace periporo {
 using Pack = std::experimental::native_simd<double>;
 /// The outcome of comparing two packs, lane by lane.
 using PackMask = Pack::mask_type;
-/// Number of lanes of a Pack.
-inline constexpr std::size_t pack_width = Pack::size();
+static_assert(Pack::size() == pack_width);
 static_assert(pack_width <= 8, "masks of lanes are kept in one byte");
 
 /// The result of comparing two `Real`s: bool for double, PackMask for Pack.

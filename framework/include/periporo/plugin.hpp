@@ -9,16 +9,16 @@
 // constructed from `const Parameters&`.
 #pragma once
 
-#include "periporo/pack.hpp"
 #include "periporo/parameters.hpp"
+#include "periporo/target.hpp"
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace periporo {
@@ -90,7 +90,7 @@ namespace {
     add(", libstdc++ ABI ");
     add_number(_GLIBCXX_USE_CXX11_ABI);
     add(", Eigen alignment ");
-    add_number(EIGEN_MAX_ALIGN_BYTES);
+    add_number(static_cast<long>(eigen_alignment));
     add(", pack width ");
     add_number(static_cast<long>(pack_width));
     return text;

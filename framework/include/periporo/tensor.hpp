@@ -5,14 +5,11 @@
 #pragma once
 
 #include "periporo/pack.hpp"
+#include "periporo/vector.hpp"
 
-#include <Eigen/Core>
 #include <array>
 
 namespace periporo {
-
-/// A point, displacement, velocity or force in space [SI units].
-using Vector3 = Eigen::Vector3d;
 
 /// Names of the components of a SymmetricTensor, in the order of storage.
 inline constexpr const char* symmetric_component_names[6] = {"xx", "yy", "zz", "xy", "yz", "xz"};

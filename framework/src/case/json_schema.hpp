@@ -7,7 +7,7 @@
 #include "case/schema.hpp"
 #include "plugins/registry.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace periporo {
 

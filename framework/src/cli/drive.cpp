@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // `periporo drive CASE`: a material alone along a path.
-#include "cli/command.hpp"
+#include "cli/commands.hpp"
 #include "cli/result_folder.hpp"
 #include "drive/path_reader.hpp"
 #include "drive/path_results.hpp"
@@ -16,11 +16,6 @@
 namespace periporo::cli {
 namespace {
 
-struct DriveArguments {
-    CaseArguments path;
-    std::filesystem::path folder;
-};
-
 /// Results may go over those of an earlier path, but not over the path itself.
 void check_folder(const std::filesystem::path& folder, const std::filesystem::path& file)
 {
@@ -33,7 +28,9 @@ void check_folder(const std::filesystem::path& folder, const std::filesystem::pa
             fmt::format("results in {} would replace {}; choose another --out", folder.string(), file.string()));
 }
 
-ExitStatus drive(DriveArguments& arguments)
+} // namespace
+
+ExitStatus drive(DriveArguments arguments)
 {
     PluginRegistry registry;
     const PathDescription path = read_path(arguments.path.file, arguments.path.options, registry);
@@ -54,25 +51,6 @@ ExitStatus drive(DriveArguments& arguments)
     fmt::print(stderr, "periporo: {}\n{} makes this step alone\n", failure_text(path, record),
                (arguments.folder / "failing_step.toml").string());
     return ExitStatus::failed;
-}
-
-} // namespace
-
-void add_drive_command(CLI::App& program, Action& action)
-{
-    CLI::App* command =
-        program.add_subcommand("drive", "Lead one point of a material along a path of strains and stresses");
-    const auto arguments = std::make_shared<DriveArguments>();
-    add_case_arguments(*command, arguments->path);
-    command->get_option("CASE")->description("The file of the path: material, start and stages of one point");
-    command->add_option("--out", arguments->folder, "Folder for the results (default: results/<name of CASE>)")
-        ->type_name("DIR");
-    command->footer(
-        "Example:\n"
-        "  periporo drive cases/material/triaxial_drained.toml --set material.silt.critical_state_slope=1.3\n\n"
-        "Writes path.csv, path.toml (the whole path, resolved) and, where the law has one, yield_surface.csv.\n"
-        "When a step fails, failing_step.toml makes this step alone. tools/drive draws the path too.");
-    command->callback([arguments, &action] { action = [arguments] { return drive(*arguments); }; });
 }
 
 } // namespace periporo::cli

@@ -5,7 +5,7 @@
 // for machines.
 #include "case/resolved.hpp"
 #include "case/value.hpp"
-#include "cli/command.hpp"
+#include "cli/commands.hpp"
 #include "sdk/nearest_name.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -188,37 +187,17 @@ std::string json(const PluginRegistry& registry, const std::string& name)
 
 } // namespace
 
-void add_inspect_command(CLI::App& program, Action& action)
+ExitStatus inspect(const InspectArguments& arguments)
 {
-    struct Arguments {
-        std::string name;
-        bool markdown = false;
-        bool json = false;
-        std::vector<std::filesystem::path> folders;
-    };
-    CLI::App* command =
-        program.add_subcommand("inspect", "List the plugins, or the parameters of one with units and defaults");
-    const auto arguments = std::make_shared<Arguments>();
-    command->add_option("NAME", arguments->name, "A plugin; all of them when left out")->type_name("");
-    add_plugin_path(*command, arguments->folders);
-    CLI::Option* as_markdown =
-        command->add_flag("--markdown", arguments->markdown, "As a page of reference, with all parameters");
-    command->add_flag("--json", arguments->json, "For machines, with all parameters")->excludes(as_markdown);
-    command->footer("Example:\n  periporo inspect viscoplastic_critical_state\n"
-                    "  periporo inspect --markdown > reference.md");
-    command->callback([arguments, &action] {
-        action = [arguments] {
-            PluginRegistry registry;
-            registry.load_folders(plugin_search_path(arguments->folders, {}));
-            demand(registry, arguments->name);
-            const std::string& name = arguments->name;
-            fmt::print("{}", arguments->markdown ? markdown(registry, name)
-                             : arguments->json   ? json(registry, name)
-                             : name.empty()      ? all_plugins(registry)
-                                                 : one_plugin(registry, name));
-            return ExitStatus::done;
-        };
-    });
+    PluginRegistry registry;
+    registry.load_folders(plugin_search_path(arguments.plugin_folders, {}));
+    demand(registry, arguments.name);
+    const std::string& name = arguments.name;
+    fmt::print("{}", arguments.markdown ? markdown(registry, name)
+                     : arguments.json   ? json(registry, name)
+                     : name.empty()     ? all_plugins(registry)
+                                        : one_plugin(registry, name));
+    return ExitStatus::done;
 }
 
 } // namespace periporo::cli

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The command-line program.
-#include "cli/command.hpp"
-
-#include <fmt/core.h>
+#include "cli/command_line.hpp"
 
 #include <cstdio>
+#include <exception>
 #include <limits>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -14,34 +13,13 @@
 
 namespace {
 
-using periporo::cli::Action;
-using periporo::cli::ExitStatus;
-
-int run_program(int count, char** arguments)
+periporo::cli::ExitStatus run_program(int count, char** arguments)
 {
-    CLI::App program("Large-deformation simulation of unsaturated soil by stabilized periporomechanics", "periporo");
-    program.set_version_flag("--version", "periporo " PERIPORO_VERSION, "Print the version and exit");
-    program.require_subcommand(1);
-    program.footer("Example:\n  periporo run cases/column_collapse/quickstart.toml\n\n"
-                   "Exit status: 0 done, 1 failed while running, 2 wrong input, 130 interrupted.");
-    Action action;
-    periporo::cli::add_run_command(program, action);
-    periporo::cli::add_check_command(program, action);
-    periporo::cli::add_explain_command(program, action);
-    periporo::cli::add_inspect_command(program, action);
-    periporo::cli::add_dispersion_command(program, action);
-    periporo::cli::add_drive_command(program, action);
-    periporo::cli::add_schema_command(program, action);
-    periporo::cli::add_new_command(program, action);
-    try {
-        program.parse(count, arguments);
-    } catch (const CLI::Success& request) { // --help and --version
-        return program.exit(request);
-    } catch (const CLI::ParseError& error) {
-        program.exit(error);
-        return static_cast<int>(ExitStatus::wrong_input);
-    }
-    return static_cast<int>(periporo::cli::report_faults(action));
+    using namespace periporo::cli;
+    const std::variant<Action, ExitStatus> asked_for = parse_command_line(count, arguments);
+    if (const Action* action = std::get_if<Action>(&asked_for))
+        return report_faults(*action);
+    return std::get<ExitStatus>(asked_for);
 }
 
 } // namespace
@@ -55,9 +33,9 @@ int main(int count, char** arguments)
     mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 #endif
     try {
-        return run_program(count, arguments);
+        return static_cast<int>(run_program(count, arguments));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "periporo: %s\n", error.what());
-        return static_cast<int>(ExitStatus::failed);
+        return static_cast<int>(periporo::cli::ExitStatus::failed);
     }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // `periporo new KIND NAME`: a working project of a plugin outside the source tree.
-#include "cli/command.hpp"
+#include "cli/commands.hpp"
 #include "cli/plugin_name.hpp"
 #include "cli/project_templates.hpp"
 
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <memory>
 #include <stdexcept>
 #include <system_error>
 
@@ -20,15 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
-    std::string kind;
-    std::string name;
-    fs::path folder; ///< empty for ./NAME
-    std::vector<fs::path> plugin_folders;
-};
-
 /// @throws UsageError when a new plugin of the kind cannot be called so.
-void check_name(const Arguments& arguments)
+void check_name(const NewArguments& arguments)
 {
     if (const std::string objection = name_objection(arguments.name); !objection.empty())
         throw UsageError(fmt::format("'{}' cannot be the name of a plugin: {}", arguments.name, objection));
@@ -105,7 +97,9 @@ std::string next_commands(const std::string& name, const fs::path& folder, bool 
     return text;
 }
 
-ExitStatus write_new_plugin(const Arguments& arguments)
+} // namespace
+
+ExitStatus write_new_plugin(const NewArguments& arguments)
 {
     check_name(arguments);
     const fs::path folder = arguments.folder.empty() ? fs::path(arguments.name) : arguments.folder;
@@ -115,30 +109,6 @@ ExitStatus write_new_plugin(const Arguments& arguments)
     const bool has_case = std::find(files.begin(), files.end(), arguments.name + ".toml") != files.end();
     fmt::print("{}", next_commands(arguments.name, folder, has_case));
     return ExitStatus::done;
-}
-
-} // namespace
-
-void add_new_command(CLI::App& program, Action& action)
-{
-    CLI::App* command = program.add_subcommand(
-        "new", "Write a plugin of your own: a small project that builds and passes its tests as it is");
-    const auto arguments = std::make_shared<Arguments>();
-    std::vector<std::string> kinds;
-    for (const PluginKind kind :
-         {PluginKind::material, PluginKind::geometry, PluginKind::contact, PluginKind::retention, PluginKind::output})
-        kinds.emplace_back(kind_name(kind));
-    command->add_option("KIND", arguments->kind, fmt::format("{}", fmt::join(kinds, ", ")))
-        ->required()
-        ->check(CLI::IsMember(kinds).description(""))
-        ->type_name("");
-    command->add_option("NAME", arguments->name, "Name of the plugin in case files, as in my_clay")
-        ->required()
-        ->type_name("");
-    command->add_option("--out", arguments->folder, "Folder to make; ./NAME when left out")->type_name("DIR");
-    add_plugin_path(*command, arguments->plugin_folders);
-    command->footer("Example:\n  periporo new material my_clay");
-    command->callback([arguments, &action] { action = [arguments] { return write_new_plugin(*arguments); }; });
 }
 
 } // namespace periporo::cli

@@ -2,29 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // `periporo run CASE`: from a case file to results.
-#include "scheduler/run.hpp"
-#include "cli/command.hpp"
+#include "cli/commands.hpp"
 #include "cli/result_folder.hpp"
 #include "cli/threads.hpp"
 #include "cli/unfinished_run.hpp"
 #include "scheduler/earlier_results.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
 #include <csignal>
-#include <cstdint>
-#include <memory>
 #include <optional>
 
 namespace periporo::cli {
 namespace {
-
-struct RunArguments {
-    CaseArguments the_case;
-    RunOptions options;
-    bool overwrite = false;
-};
 
 ExistingResults existing_results(const RunArguments& arguments)
 {
@@ -49,17 +37,9 @@ std::vector<std::filesystem::path> files_of(const InputHashes& inputs)
     return files;
 }
 
-/// What is wrong with a number of steps, or an empty text.
-std::string objection_to_steps(const std::string& text)
-{
-    std::uint64_t steps = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), steps);
-    if (error == std::errc() && end == text.data() + text.size() && steps >= 1)
-        return {};
-    return fmt::format("\"{}\" is no number of steps; give a whole number from 1", text);
-}
+} // namespace
 
-ExitStatus run(RunArguments& arguments)
+ExitStatus run(RunArguments arguments)
 {
     // The run outlives its terminal, and a file that may not grow is an error of the write with its message.
     std::signal(SIGPIPE, SIG_IGN);
@@ -86,38 +66,6 @@ ExitStatus run(RunArguments& arguments)
     };
     const RunOutcome outcome = run_case(description, registry, arguments.options);
     return outcome == RunOutcome::complete ? ExitStatus::done : ExitStatus::interrupted;
-}
-
-} // namespace
-
-void add_run_command(CLI::App& program, Action& action)
-{
-    CLI::App* command = program.add_subcommand("run", "Run a case and write its results");
-    const auto arguments = std::make_shared<RunArguments>();
-    add_case_arguments(*command, arguments->the_case);
-    command
-        ->add_option("--out", arguments->options.directory, "Folder for the results (default: results/<name of CASE>)")
-        ->type_name("DIR");
-    add_threads(*command, arguments->options.threads);
-    CLI::Option* resume =
-        command->add_flag("--resume", arguments->options.resume, "Go on with the interrupted run in the folder");
-    command
-        ->add_flag("--without-lost-results", arguments->options.without_lost,
-                   "With --resume: go on although snapshots or rows are gone; the results name them")
-        ->needs(resume);
-    command->add_flag("--overwrite", arguments->overwrite, "Delete the earlier results in the folder")
-        ->excludes(resume);
-    command
-        ->add_option("--stop-after", arguments->options.stop_after,
-                     "Stop with a checkpoint after so many steps of all stages")
-        ->check(CLI::Validator(objection_to_steps, "", "steps"))
-        ->type_name("STEPS");
-    command->add_flag("--quiet", arguments->options.quiet, "No progress on the terminal");
-    command->footer("Example:\n"
-                    "  periporo run my_case.toml --set body.column.material=sand --out results/sand --threads 2\n\n"
-                    "Ctrl-C, SIGTERM, SIGHUP and --stop-after stop with a checkpoint; the same command with --resume "
-                    "goes on.");
-    command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 
 } // namespace periporo::cli

@@ -5,6 +5,8 @@
 
 #include "periporo/file.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace periporo {
 
 nlohmann::json summary_of(const CaseDescription& description, const Model& model, const Dynamics& dynamics)

@@ -9,7 +9,7 @@
 #include "time/dynamics.hpp"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace periporo {
 

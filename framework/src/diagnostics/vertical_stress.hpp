@@ -7,7 +7,7 @@
 #include "model/model.hpp"
 #include "operator/force_state.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <vector>
 
