@@ -302,7 +302,7 @@ void set_obstacles(Model& model, const CaseDescription& description, const Stage
         const ObstacleDescription& obstacle = description.obstacles[o];
         const bool moves = obstacle.moves_in
                                ? std::ranges::find(*obstacle.moves_in, stage.name) != obstacle.moves_in->end()
-                               : stage.kind == StageKind::dynamic;
+                               : stage.kind == StageType::dynamic;
         model.state.obstacles[o].velocity = moves ? obstacle.velocity : Vector3(Vector3::Zero());
         model.state.obstacles[o].present = applies_in(obstacle.stages, stage);
     }

@@ -24,7 +24,7 @@ using Texts = std::vector<std::string>;
 
 bool is_dynamic(const StageDescription& stage)
 {
-    return stage.kind == StageKind::dynamic;
+    return stage.kind == StageType::dynamic;
 }
 
 void check_length(const CaseDescription& description, double step, Texts& suspicions)

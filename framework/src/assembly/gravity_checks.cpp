@@ -141,7 +141,7 @@ void check_gravity(const BuiltModel& built, const CaseDescription& description, 
                                                  built.model.state.bodies[b].name, stage.name);
             const std::string way_out = "give a contact with a surface that it falls on, hold some of its points, or "
                                         "turn 'gravity'";
-            if (stage.kind == StageKind::quasi_static)
+            if (stage.kind == StageType::quasi_static)
                 throw refusal(description, fmt::format("stage.{}", s), what + ": it never comes to rest", way_out);
             if (is_left_to_gravity(built, description, b))
                 throw refusal(description, "gravity", what + ", and it falls away from the surfaces that it is given",

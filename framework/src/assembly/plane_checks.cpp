@@ -167,7 +167,7 @@ void check_rollers_of_body(const BodyAtPlanes& body, const CaseDescription& desc
                            std::vector<std::string>& suspicions)
 {
     for (std::size_t s = 0; s < description.stages.size(); ++s) {
-        if (description.stages[s].kind != StageKind::quasi_static)
+        if (description.stages[s].kind != StageType::quasi_static)
             return;
         const std::string key = fmt::format("stage.{}.rollers", s);
         for (const PlaneDescription& roller : description.stages[s].rollers)

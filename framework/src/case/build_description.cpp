@@ -162,9 +162,9 @@ StageDescription stage_of(const CheckedTable& table)
 {
     StageDescription stage;
     stage.name = table.own.text("name");
-    stage.kind = choice_of<StageKind>(table.own.text("type"));
+    stage.kind = choice_of<StageType>(table.own.text("type"));
     const Parameters& until = table.one("until").own;
-    if (stage.kind == StageKind::quasi_static) {
+    if (stage.kind == StageType::quasi_static) {
         for (const std::string& plane : optional_texts(table.own, "rollers"))
             stage.rollers.push_back(parse_plane(plane));
         stage.residual = until.real("residual");

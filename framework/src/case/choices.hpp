@@ -27,7 +27,7 @@ enum class LatticeAxes { body, axes };
 enum class ImageKind { symmetry, periodic };
 /// How the motion of points is prescribed.
 enum class HeldKind { fixed, roller, moving };
-enum class StageKind { quasi_static, dynamic };
+enum class StageType { quasi_static, dynamic };
 /// The response of materials while a stage settles.
 enum class SettlingResponse { elastic, full };
 
@@ -71,9 +71,9 @@ struct ChoiceNames<HeldKind> {
                                       std::pair{HeldKind::moving, "moving"}};
 };
 template <>
-struct ChoiceNames<StageKind> {
-    static constexpr std::array names{std::pair{StageKind::quasi_static, "quasi_static"},
-                                      std::pair{StageKind::dynamic, "dynamic"}};
+struct ChoiceNames<StageType> {
+    static constexpr std::array names{std::pair{StageType::quasi_static, "quasi_static"},
+                                      std::pair{StageType::dynamic, "dynamic"}};
 };
 template <>
 struct ChoiceNames<SettlingResponse> {

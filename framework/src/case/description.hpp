@@ -152,7 +152,7 @@ struct WaterChangeDescription {
 
 struct StageDescription {
     std::string name;
-    StageKind kind = StageKind::dynamic;
+    StageType kind = StageType::dynamic;
     std::vector<PlaneDescription> rollers; ///< frictionless walls during this stage: planes are symmetry planes, a
                                            ///< cylinder holds the radial velocity of the points beside it
     double residual = 1e-3;                ///< |unbalanced force|/|gravity| to reach; dynamic: on the mean [-]

@@ -324,7 +324,7 @@ TableRules dynamic_rules()
 TableRules stage_rules()
 {
     TableRules rules{{Parameter::text("name", "Name of the stage, used once"),
-                      Parameter::text("type", "Kind of stage").one_of(choice_names<StageKind>())}};
+                      Parameter::text("type", "Kind of stage").one_of(choice_names<StageType>())}};
     rules.nested = {
         {"water", TableShape::list, TablePresence::optional, "What the water of a body becomes during the stage",
          water_rules({Parameter::text("body", "The body"),

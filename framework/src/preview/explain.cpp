@@ -163,7 +163,7 @@ std::string stages_text(const CaseDescription& description, const std::optional<
 {
     std::string text;
     for (const StageDescription& stage : description.stages) {
-        if (stage.kind == StageKind::quasi_static) {
+        if (stage.kind == StageType::quasi_static) {
             text += fmt::format("  stage '{}': settles under gravity until the residual is {:.1e}, at most {} steps\n",
                                 stage.name, stage.residual, stage.maximum_steps);
             continue;
@@ -211,7 +211,7 @@ std::string explain_case(const CaseDescription& description, const PluginRegistr
     text += step_text(description, stable, sample->coarser, step) + stages_text(description, step);
     double steps = 0.0;
     for (const StageDescription& stage : description.stages)
-        steps += stage.kind == StageKind::quasi_static ? 0.0 : stage.duration / step;
+        steps += stage.kind == StageType::quasi_static ? 0.0 : stage.duration / step;
     const double more_points =
         sample->coarser == 1.0 ? 1.0 : size.points / static_cast<double>(sample->simulation->model().size());
     const double seconds = steps * more_points * sample->simulation->seconds_of_a_step(measured_seconds);

@@ -57,7 +57,7 @@ void RunPosition::check(const std::vector<StageDescription>& stages) const
 {
     const bool somewhere = stage < stages.size() && (begun || stage > 0) && stage_step <= step;
     bool sometime = stage_start >= 0.0 && time >= stage_start && time_step > 0.0 && wall_seconds >= 0.0;
-    if (somewhere && begun && stages[stage].kind == StageKind::dynamic) // a stage that is over has been ended
+    if (somewhere && begun && stages[stage].kind == StageType::dynamic) // a stage that is over has been ended
         sometime = sometime && time < stage_start + stages[stage].duration;
     if (!somewhere || !sometime)
         throw std::runtime_error(fmt::format("no run of {} stages stands in stage {} at step {} and time {:.4g} s",

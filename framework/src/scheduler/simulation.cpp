@@ -46,7 +46,7 @@ DynamicsSettings settings_of(const CaseDescription& description)
 
 bool is_quasi_static(const StageDescription& stage)
 {
-    return stage.kind == StageKind::quasi_static;
+    return stage.kind == StageType::quasi_static;
 }
 
 /// Reports of the stages that are done, as a checkpoint has them.
