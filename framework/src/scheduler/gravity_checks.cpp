@@ -4,7 +4,7 @@
 #include "scheduler/gravity_checks.hpp"
 
 #include "case/refusal.hpp"
-#include "contact/assignment.hpp"
+#include "contact/rigid_contact_surface.hpp"
 #include "scheduler/held_points.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "scheduler/model_checks.hpp"
 
 #include "case/refusal.hpp"
-#include "contact/assignment.hpp"
+#include "contact/rigid_contact_surface.hpp"
 #include "neighbourhood/cell_list.hpp"
 #include "scheduler/geometries.hpp"
 #include "scheduler/gravity_checks.hpp"
