@@ -170,9 +170,9 @@ MUTATIONS = {
         "unit.io.checkpoint_test",
     ),
     "energy_stored_in_contacts_lost_at_resume": Mutation(
-        "contact/contact_forces.cpp",
-        "const bool tracked = !searched_.empty();",
-        "stored_ = {};\n    const bool tracked = !searched_.empty();",
+        "contact/rigid_surface_contact.cpp",
+        "if (stored_points_.size() != stored_energies_.size() ||",
+        "stored_points_.clear();\n    stored_energies_.clear();\n    if (stored_points_.size() != stored_energies_.size() ||",
         "unit.time.obstacle_corners_test",
     ),
 }

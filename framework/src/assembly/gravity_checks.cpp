@@ -5,7 +5,7 @@
 
 #include "assembly/held_points.hpp"
 #include "case/refusal.hpp"
-#include "contact/assignment.hpp"
+#include "contact/rigid_contact_surface.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

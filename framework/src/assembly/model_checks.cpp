@@ -8,7 +8,7 @@
 #include "assembly/plane_checks.hpp"
 #include "assembly/value_checks.hpp"
 #include "case/refusal.hpp"
-#include "contact/assignment.hpp"
+#include "contact/rigid_contact_surface.hpp"
 #include "neighbourhood/cell_list.hpp"
 
 #include <algorithm>

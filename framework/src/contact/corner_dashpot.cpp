@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Brakes a point in a corner with the dashpot that the law has along the way out.
+// Brakes a point in a corner with the dashpot that the law has along the exit.
 #include "contact/corner_dashpot.hpp"
 
 #include <Eigen/Geometry>
@@ -11,23 +11,23 @@ namespace periporo {
 namespace {
 
 /// The part of a velocity that leads into or out of the faces that push.
-Vector3 across_faces(const WayOut& way, const Vector3& velocity)
+Vector3 across_faces(const ShortestExit& exit, const Vector3& velocity)
 {
-    if (way.faces == 3)
+    if (exit.faces == 3)
         return velocity;
-    if (way.faces == 1)
-        return velocity.dot(way.normals[0]) * way.normals[0];
-    const Vector3 edge = way.normals[0].cross(way.normals[1]).normalized();
+    if (exit.faces == 1)
+        return velocity.dot(exit.normals[0]) * exit.normals[0];
+    const Vector3 edge = exit.normals[0].cross(exit.normals[1]).normalized();
     return velocity - velocity.dot(edge) * edge;
 }
 
 } // namespace
 
-Vector3 brake_across(const Contact& law, ContactPair pair, const WayOut& way, const Vector3& velocity,
-                     const Vector3& reaction)
+Vector3 corner_dashpot(const Contact& law, ContactPair pair, const ShortestExit& exit, const Vector3& velocity,
+                       const Vector3& reaction)
 {
-    const Vector3 out = way.move.normalized();
-    const Vector3 into = across_faces(way, velocity);
+    const Vector3 out = exit.move.normalized();
+    const Vector3 into = across_faces(exit, velocity);
     const Vector3 across = into - into.dot(out) * out;
     pair.approach_speed = across.norm();
     if (pair.approach_speed <= 0.0)
@@ -37,14 +37,14 @@ Vector3 brake_across(const Contact& law, ContactPair pair, const WayOut& way, co
     const Vector3 braking = -response.damping_force / pair.approach_speed * across;
     // Shares of the faces in the braking, by the reciprocal base of their normals.
     double part = 1.0;
-    for (std::size_t f = 0; f < way.faces; ++f) {
-        Vector3 reciprocal = way.normals[f];
-        if (way.faces == 2) {
-            reciprocal -= reciprocal.dot(way.normals[1 - f]) * way.normals[1 - f];
+    for (std::size_t f = 0; f < exit.faces; ++f) {
+        Vector3 reciprocal = exit.normals[f];
+        if (exit.faces == 2) {
+            reciprocal -= reciprocal.dot(exit.normals[1 - f]) * exit.normals[1 - f];
         } else {
-            reciprocal = way.normals[(f + 1) % 3].cross(way.normals[(f + 2) % 3]);
+            reciprocal = exit.normals[(f + 1) % 3].cross(exit.normals[(f + 2) % 3]);
         }
-        reciprocal /= reciprocal.dot(way.normals[f]);
+        reciprocal /= reciprocal.dot(exit.normals[f]);
         const double pushing = reaction.dot(reciprocal);
         const double share = braking.dot(reciprocal);
         if (pushing + share < 0.0)

@@ -1,6 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// Finds surface points and which points are near them, and fits the plane that supports a point.
 #include "contact/smoothed_surface.hpp"
 
 #include "neighbourhood/cell_list.hpp"
@@ -73,8 +74,8 @@ void SmoothedSurface::find_nodes(const Model& model, std::uint32_t surface_body)
 {
     nodes_.clear();
     const std::size_t n = model.size();
-    std::vector<Vector3> normals(n, Vector3::Zero());
-    std::vector<double> shares(n, 0.0);
+    std::vector<Vector3> normals(model.neighbourhood.ends(), Vector3::Zero()); // those of images not rotated
+    std::vector<double> shares(model.neighbourhood.ends(), 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         if (model.state.points.body[i] != surface_body)
             continue;
@@ -82,13 +83,13 @@ void SmoothedSurface::find_nodes(const Model& model, std::uint32_t surface_body)
         if (!normals[i].isZero(0.0))
             shares[i] = share_in_surface(model, i, normals[i]);
     }
-    for (std::uint32_t c = 0; c < model.ends.size(); ++c) {
-        const std::uint32_t p = model.neighbourhood.families.parent(c);
-        if (shares[p] > 0.0)
-            nodes_.push_back(
-                {c, model.neighbourhood.isometries[model.neighbourhood.families.isometry(c)].direction(normals[p]),
-                 shares[p]});
-    }
+    model.neighbourhood.fill_images(normals);
+    model.neighbourhood.fill_images(shares);
+    for (std::uint32_t c = 0; c < model.ends.size(); ++c)
+        if (shares[c] > 0.0) {
+            const Isometry& isometry = model.neighbourhood.isometries[model.neighbourhood.families.isometry(c)];
+            nodes_.push_back({c, isometry.direction(normals[c]), shares[c]});
+        }
 }
 
 void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::uint32_t other_body, double reach,
@@ -101,11 +102,11 @@ void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::
     reach_ = std::hypot(support_radius * model.state.spacing, reach + 0.5 * model.state.spacing);
     find_nodes(model, surface_body);
     shares_.clear();
-    outwards_.clear();
+    outward_.clear();
     if (nodes_.empty())
         return;
     std::vector<Vector3> positions(nodes_.size());
-    std::ranges::transform(nodes_, positions.begin(), [&](const Node& node) { return model.ends[node.record].x(); });
+    std::ranges::transform(nodes_, positions.begin(), [&](const Node& node) { return model.ends[node.end].x(); });
     const double search = reach_ + slack;
     const CellList cells(positions, search);
     for (std::uint32_t i = 0; i < model.size(); ++i) {
@@ -121,19 +122,19 @@ void SmoothedSurface::find(const Model& model, std::uint32_t surface_body, std::
         near_.push_back(i);
         first_.push_back(candidates_.size());
         shares_.resize(candidates_.size());
-        outwards_.emplace_back(Vector3::Zero());
-        weigh_sides(model, near_.size() - 1, slack);
+        outward_.emplace_back(Vector3::Zero());
+        set_shares(model, near_.size() - 1, slack);
     }
 }
 
-void SmoothedSurface::weigh_sides(const Model& model, std::size_t n, double slack)
+void SmoothedSurface::set_shares(const Model& model, std::size_t n, double slack)
 {
     const Vector3 x = model.ends[near_[n]].x();
     const double search = reach_ + slack;
-    Vector3& outwards = outwards_[n];
+    Vector3& outwards = outward_[n];
     for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
         const Node& node = nodes_[candidates_[c]];
-        const double squared = (model.ends[node.record].x() - x).squaredNorm() / (search * search);
+        const double squared = (model.ends[node.end].x() - x).squaredNorm() / (search * search);
         outwards += node.share * bell(squared).value * node.normal;
     }
     outwards.normalize();
@@ -148,7 +149,7 @@ PlaneFit SmoothedSurface::fit(const Model& model, std::size_t n) const
     const Vector3 x = model.ends[near_[n]].x();
     PlaneFit plane;
     for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
-        const Vector3 place = model.ends[nodes_[candidates_[c]].record].x() - x;
+        const Vector3 place = model.ends[nodes_[candidates_[c]].end].x() - x;
         const double weight = shares_[c] * bell(place.squaredNorm() / (reach_ * reach_)).value;
         if (weight > 0.0)
             plane.add(weight, place);
@@ -161,21 +162,21 @@ bool SmoothedSurface::find_support(const Model& model, std::size_t n, Support& s
     const Vector3 x = model.ends[near_[n]].x();
     const double per_area = 1.0 / (spacing_ * spacing_), per_reach = 1.0 / (reach_ * reach_);
     PlaneFit plane = fit(model, n);
-    if (!plane.solve(outwards_[n]) || plane.spread() * per_area <= least_spread)
+    if (!plane.solve(outward_[n]) || plane.spread() * per_area <= least_spread)
         return false;
     const Step strength = smooth_step(plane.spread() * per_area, least_spread, bearing_spread);
     support.normal = plane.normal();
     support.distance = plane.height() - 0.5 * spacing_;
     support.strength = strength.value;
-    support.records.clear();
+    support.ends.clear();
     support.weights.clear();
     support.slopes.clear();
-    support.fades.clear();
+    support.strength_slopes.clear();
     support.own_slope.setZero();
-    support.own_fade.setZero();
+    support.own_strength_slope.setZero();
     for (std::size_t c = first_[n]; c < first_[n + 1]; ++c) {
-        const std::uint32_t record = nodes_[candidates_[c]].record;
-        const Vector3 place = model.ends[record].x() - x;
+        const std::uint32_t end = nodes_[candidates_[c]].end;
+        const Vector3 place = model.ends[end].x() - x;
         const Bell around = bell(place.squaredNorm() * per_reach);
         const double weight = shares_[c] * around.value;
         if (weight <= 0.0)
@@ -184,14 +185,14 @@ bool SmoothedSurface::find_support(const Model& model, std::size_t n, Support& s
         const auto in_all = [&](const PlaneFit::Slope& slope) {
             return Vector3(weight * slope.by_place + slope.by_weight * by_weight);
         };
-        support.records.push_back(record);
+        support.ends.push_back(end);
         support.weights.push_back(weight * plane.part(place));
         support.slopes.push_back(in_all(plane.slope_of_height(place)));
         support.own_slope -= support.slopes.back();
-        support.fades.push_back(strength.slope > 0.0
-                                    ? Vector3(strength.slope * per_area * in_all(plane.slope_of_spread(place)))
-                                    : Vector3(Vector3::Zero()));
-        support.own_fade -= support.fades.back();
+        support.strength_slopes.push_back(
+            strength.slope > 0.0 ? Vector3(strength.slope * per_area * in_all(plane.slope_of_spread(place)))
+                                 : Vector3(Vector3::Zero()));
+        support.own_strength_slope -= support.strength_slopes.back();
     }
     return true;
 }

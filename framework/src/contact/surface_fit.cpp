@@ -1,6 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// Solves for the plane, and prepares its derivatives.
 #include "contact/surface_fit.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -54,11 +54,23 @@ struct Neighbourhood {
         for (std::size_t m = 0; m < images.size(); ++m)
             field[families.points() + m] = field[images[m].parent];
     }
+    /// The value of the point that an end stands for: sums and marks of images go back to their points this way.
+    /// @param field one value for each point
+    template <class Value>
+    Value& at_point(std::uint32_t end, std::vector<Value>& field) const
+    {
+        return field[families.parent(end)];
+    }
+    /// A vector at an end, rotated to the point that the end stands for.
+    Vector3 rotated_to_point(std::uint32_t end, const Vector3& value) const
+    {
+        return isometries[families.isometry(end)].rotation.transpose() * value;
+    }
     /// Adds a vector at an end to the point that the end stands for, as that point has it.
     /// @param field one vector for each point
     void add_to_point(std::uint32_t end, const Vector3& value, std::vector<Vector3>& field) const
     {
-        field[families.parent(end)] += isometries[families.isometry(end)].rotation.transpose() * value;
+        at_point(end, field) += rotated_to_point(end, value);
     }
 
     std::size_t memory() const { return families.memory() + sub_horizons.memory() + blocks.memory(); } ///< [bytes]

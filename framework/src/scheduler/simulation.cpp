@@ -521,7 +521,7 @@ void Simulation::check_crossings()
         const std::string what = fmt::format(
             "point {} of body '{}' went through obstacle '{}' and is behind it at position ({:.5g}, {:.5g}, {:.5g}) m",
             model_.state.points.id[i], model_.body_of(i).name,
-            model_.state.obstacles[*contact_.assignments()[crossing.assignment].obstacle].name, x.x(), x.y(), x.z());
+            model_.state.obstacles[*contact_.assignment(crossing.assignment).obstacle].name, x.x(), x.y(), x.z());
         if (contact.crossing_stops)
             fail(fmt::format("{}; a stiffer law, a thicker obstacle or a smaller step would hold it, and crossing = "
                              "\"warn\" in contact {} lets such points go",

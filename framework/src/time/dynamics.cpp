@@ -22,19 +22,8 @@ void Dynamics::refresh()
 {
     times_.time(Phase::refresh, [&] {
         model_.gather_ends();
-        const std::vector<ClosedPair> closed = contact_.closed_pairs(model_);
-        const double before = closed.empty() ? 0.0 : contact_.energy_within_bodies(model_);
-        contact_.energy_on_smoothed(model_, stored_before_);
-        refresh_families(model_, force_state_, closed);
-        contact_.find_candidates(model_, settings_.skin);
-        // A point may have lost a part of the smoothed surface that it stood on. What it gains is not booked: an energy
-        // from nowhere has to show as an error.
-        contact_.energy_on_smoothed(model_, stored_after_);
-        for (std::size_t i = 0; i < stored_after_.size(); ++i)
-            state_.ledger.collision += std::max(0.0, stored_before_[i] - stored_after_[i]);
-        // Bonds take the place of contacts that close, and what these stored is dissipated.
-        if (!closed.empty())
-            state_.ledger.collision += before - contact_.energy_within_bodies(model_);
+        refresh_families(model_, force_state_, contact_.begin_refresh(model_));
+        contact_.end_refresh(model_, settings_.skin, state_.ledger.collision);
     });
     ++state_.refreshes;
 }
@@ -49,7 +38,7 @@ void Dynamics::start()
     hold_velocities();
     model_.gather_ends();
     contact_.find_candidates(model_, settings_.skin);
-    contact_.make_room(model_);
+    contact_.begin_stage(model_);
     force_state_.evaluate(model_, {StressUpdate::keep, MaterialResponse::full, 0.0});
     sum_forces({});
     state_.ledger.boundary += kinetic_energy() + contact_.energy() - before;
@@ -68,7 +57,7 @@ void Dynamics::step(const StepOptions& options)
     });
     if (refresh_due)
         refresh();
-    times_.time(Phase::contact, [&] { contact_.follow_surfaces(model_); });
+    times_.time(Phase::contact, [&] { contact_.update_near_points(model_); });
     times_.time_operator(model_.result.times, [&] {
         force_state_.evaluate(model_, {StressUpdate::advance, options.response, options.time_step});
     });
@@ -123,7 +112,7 @@ void Dynamics::update_ledger(double time_step)
     const LedgerPowers powers = ledger_powers();
     ledger.friction -= work_of_step(state_.powers.friction, powers.friction, time_step);
     ledger.collision -= work_of_step(state_.powers.collision, powers.collision, time_step);
-    ledger.collision += contact_.energy_let_go();
+    ledger.collision += contact_.energy_of_crossings();
     ledger.boundary += work_of_step(state_.powers.boundary, powers.boundary, time_step) + time_step * buoyancy_power_;
     state_.powers = powers;
     ledger.turned_over = std::max(ledger.turned_over, ledger.turnover());

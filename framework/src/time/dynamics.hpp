@@ -137,8 +137,6 @@ private:
     double held_power_ = 0.0;     ///< at the last evaluation [W]
     double buoyancy_power_ = 0.0; ///< of the lift of standing water, mean over the last step [W]
     State state_;
-    std::vector<double> stored_before_; ///< on smoothed surfaces, around a refresh, kept for their memory [J]
-    std::vector<double> stored_after_;
     struct BodyMotion {
         double mass = 0.0;         ///< [kg]
         double twice_energy = 0.0; ///< [J]

@@ -4,7 +4,7 @@
 // Collisions under every contact law: momentum, energy, restitution; and the closed forms of the linear ones.
 #include "collision.hpp"
 #include "contact/adhesive/adhesive.hpp"
-#include "contact/contact_slopes.hpp"
+#include "contact/contact_bound.hpp"
 #include "contact/hertz/hertz.hpp"
 #include "contact/penalty/penalty.hpp"
 #include "contact/rigid_plane/rigid_plane.hpp"

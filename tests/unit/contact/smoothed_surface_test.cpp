@@ -4,6 +4,7 @@
 // The smoothed surface of a body of points, and what a grain on it feels.
 #include "contact/contact_forces.hpp"
 #include "contact/short_range/short_range.hpp"
+#include "contact/smoothed_surface_contact.hpp"
 #include "support/specimens.hpp"
 
 #include <doctest/doctest.h>
@@ -214,8 +215,10 @@ TEST_CASE("the force on every point is minus the derivative of the stored energy
         for (const Vector3& f : force)
             largest = std::max(largest, f.norm());
         REQUIRE(largest > 0.0);
-        std::vector<double> stored; // as a refresh compares it
-        contact.energy_on_smoothed(ground.model, stored);
+        SmoothedSurfaceContact alone({law(0.0, 1.0), {1, 0}, {}, 0}, 0);
+        alone.find_candidates(ground.model, 0.1 * dx);
+        std::vector<double> stored(ground.model.size(), 0.0); // as a refresh compares it
+        alone.add_stored_energy(ground.model, stored);
         CHECK(stored[ground.grain()] == doctest::Approx(contact.energy()).epsilon(1e-12).scale(0.0));
         const double shift = 1e-5 * dx; // the third derivative of the energy is below 1e3 largest/dx^2: 1e-7
         for (std::size_t i = 0; i < force.size(); ++i) {
@@ -251,6 +254,25 @@ TEST_CASE("a grain slides over the points of a flat surface without feeling them
         CHECK(contact.energy() == doctest::Approx(0.5 * 500.0 * std::pow(0.3 * dx, 2)).epsilon(1e-12).scale(0.0));
     }
     CHECK(contact.deepest_overlap()[0] == doctest::Approx(0.6).epsilon(1e-12).scale(0.0));
+}
+
+TEST_CASE("a grain that loses its support in a refresh dissipates what it stored, one that gains support nothing")
+{
+    Ground ground;
+    ContactForces contact = on_surface(0.0);
+    const Vector3 pressed(0.1 * dx, 0.2 * dx, 0.2 * dx), free(0.1 * dx, 0.2 * dx, 5.0 * dx);
+    const double stored = 0.5 * 500.0 * std::pow(0.3 * dx, 2);
+    ground.put(pressed);
+    contact.find_candidates(ground.model, 0.1 * dx);
+    double dissipated = 1.0;
+    CHECK(contact.begin_refresh(ground.model).empty());
+    ground.put(free);
+    contact.end_refresh(ground.model, 0.1 * dx, dissipated);
+    CHECK(dissipated == doctest::Approx(1.0 + stored).epsilon(1e-12).scale(0.0));
+    contact.begin_refresh(ground.model);
+    ground.put(pressed);
+    contact.end_refresh(ground.model, 0.1 * dx, dissipated);
+    CHECK(dissipated == doctest::Approx(1.0 + stored).epsilon(1e-12).scale(0.0));
 }
 
 TEST_CASE("at a symmetry plane the half of a ground acts as the whole")
@@ -310,8 +332,8 @@ TEST_CASE("friction stops a slow grain within a step, never throws it back, and 
         REQUIRE(surface.find_support(ground.model, 0, support));
         for (const Vector3& f : force)
             sum += f;
-        for (std::size_t m = 0; m < support.records.size(); ++m)
-            surface_change += support.weights[m] * step / mass * force[support.records[m]];
+        for (std::size_t m = 0; m < support.ends.size(); ++m)
+            surface_change += support.weights[m] * step / mass * force[support.ends[m]];
         CHECK(sum.norm() < 1e-14 * force[ground.grain()].norm());
         const double before = ground.model.state.points.velocity.back().x();
         const double after = before - step * friction / mass - surface_change.x();
@@ -359,8 +381,8 @@ TEST_CASE("the bounds of points cover a crowd on the surface, and not by much")
             const auto column = static_cast<Eigen::Index>(grains.size());
             grains.push_back(surface.near()[s]);
             contacts.block<3, 1>(3 * grains.back(), column) = support.own_slope;
-            for (std::size_t m = 0; m < support.records.size(); ++m)
-                contacts.block<3, 1>(3 * support.records[m], column) = support.slopes[m];
+            for (std::size_t m = 0; m < support.ends.size(); ++m)
+                contacts.block<3, 1>(3 * support.ends[m], column) = support.slopes[m];
         }
         const auto count = static_cast<Eigen::Index>(grains.size());
         contacts.conservativeResize(Eigen::NoChange, count);

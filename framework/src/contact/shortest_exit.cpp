@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Projects a position onto the places that are out of reach, by quadratic programs of three unknowns.
-#include "contact/way_out.hpp"
+#include "contact/shortest_exit.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace periporo {
 namespace {
 
 // Lengths over the reach of the contact.
-constexpr double converged = 1e-9;    ///< change of the free place at which it is found
+constexpr double converged = 1e-9;    ///< change of the free position at which it is found
 constexpr double satisfied = 1e-10;   ///< by which a limit may be missed
-constexpr double bold_move = 0.5;     ///< of the free place, that might lead it past a wall
+constexpr double bold_move = 0.5;     ///< of the free position, that might lead past a wall
 constexpr double shortest_hop = 1e-3; ///< of a walk beside a surface; thinner solids are not seen
 
 constexpr int most_turns = 50;
@@ -27,7 +27,7 @@ constexpr double independent = 1e-14;
 
 /// A move, and the limits that it meets exactly.
 struct Attempt {
-    WayOut way;
+    ShortestExit exit;
     std::array<const FaceLimit*, 3> held = {};
 };
 
@@ -51,15 +51,15 @@ std::optional<Attempt> move_along(std::span<const FaceLimit* const> faces)
     if ((shares.array() < 0.0).any())
         return std::nullopt;
     Attempt attempt;
-    WayOut& way = attempt.way;
+    ShortestExit& exit = attempt.exit;
     for (std::size_t a = 0; a < faces.size(); ++a) {
         const double share = shares[static_cast<Index>(a)];
         if (share == 0.0)
             continue;
-        attempt.held[way.faces] = faces[a];
-        way.normals[way.faces] = faces[a]->normal;
-        way.shares[way.faces++] = share;
-        way.move += share * faces[a]->normal;
+        attempt.held[exit.faces] = faces[a];
+        exit.normals[exit.faces] = faces[a]->normal;
+        exit.shares[exit.faces++] = share;
+        exit.move += share * faces[a]->normal;
     }
     return attempt;
 }
@@ -67,9 +67,9 @@ std::optional<Attempt> move_along(std::span<const FaceLimit* const> faces)
 /// The shortest move that keeps what `now` holds and the limit `missed`, which it meets exactly.
 std::optional<Attempt> with_limit(const Attempt& now, const FaceLimit* missed, double tolerance)
 {
-    const std::size_t others = now.way.faces;
-    const auto is_met = [&](const FaceLimit* limit, const WayOut& way) {
-        return limit->normal.dot(way.move) >= limit->least - tolerance;
+    const std::size_t others = now.exit.faces;
+    const auto is_met = [&](const FaceLimit* limit, const ShortestExit& exit) {
+        return limit->normal.dot(exit.move) >= limit->least - tolerance;
     };
     std::optional<Attempt> best;
     for (unsigned subset = 0; subset < 1u << others; ++subset) {
@@ -81,9 +81,9 @@ std::optional<Attempt> with_limit(const Attempt& now, const FaceLimit* missed, d
             if ((subset >> f & 1u) != 0)
                 faces[size++] = now.held[f];
         const std::optional<Attempt> attempt = move_along({faces.data(), size});
-        if (attempt && (!best || attempt->way.move.squaredNorm() < best->way.move.squaredNorm()) &&
+        if (attempt && (!best || attempt->exit.move.squaredNorm() < best->exit.move.squaredNorm()) &&
             std::all_of(now.held.begin(), now.held.begin() + static_cast<std::ptrdiff_t>(others),
-                        [&](const FaceLimit* limit) { return is_met(limit, attempt->way); }))
+                        [&](const FaceLimit* limit) { return is_met(limit, attempt->exit); }))
             best = attempt;
     }
     return best;
@@ -91,16 +91,16 @@ std::optional<Attempt> with_limit(const Attempt& now, const FaceLimit* missed, d
 
 /// Walks towards `to`, each time by the distance to the solid beyond `level`, and returns the first place where
 /// `leaves_off` is true of that distance; none when it arrives.
-/// @param hop the least part of the way that is walked at once [m]
+/// @param hop the least part of the path that is walked at once [m]
 template <class LeavesOff>
 std::optional<Vector3> walk(const Geometry& geometry, const Vector3& from, const Vector3& to, double level, double hop,
                             const LeavesOff& leaves_off)
 {
-    const Vector3 way = to - from;
-    const double length = way.norm();
+    const Vector3 path = to - from;
+    const double length = path.norm();
     double along = 0.0;
     for (int n = 0; n < most_hops && along < length; ++n) {
-        const Vector3 place = from + (along / length) * way;
+        const Vector3 place = from + (along / length) * path;
         Vector3 normal;
         const double distance = geometry.signed_distance(place, normal);
         if (leaves_off(distance))
@@ -110,14 +110,14 @@ std::optional<Vector3> walk(const Geometry& geometry, const Vector3& from, const
     return std::nullopt;
 }
 
-/// Does a straight way between two places outside lead through the solid?
+/// Does a straight path between two places outside lead through the solid?
 bool leads_through(const Geometry& geometry, const Vector3& from, const Vector3& to, double reach)
 {
     return walk(geometry, from, to, 0.0, shortest_hop * reach, [](double distance) { return distance < 0.0; })
         .has_value();
 }
 
-/// The first place on the way that is nearer to the solid than `level` (but for a hop), or its end.
+/// The first place on the path that is nearer to the solid than `level` (but for a hop), or its end.
 Vector3 first_within(const Geometry& geometry, const Vector3& from, const Vector3& to, double level)
 {
     const double hop = shortest_hop * level;
@@ -140,7 +140,7 @@ Vector3 lifted(const Geometry& geometry, Vector3 place, double reach, SurfacePie
     return place;
 }
 
-/// Limits of the way out of `position` by the pieces seen from `place`, the nearest one first. Pieces farther than the
+/// Limits of the exit from `position` by the pieces seen from `place`, the nearest one first. Pieces farther than the
 /// reach, or than the nearest one, plus `margin` are left out.
 std::span<const FaceLimit> limits_beside(const SurfacePieces& pieces, const Vector3& position, const Vector3& place,
                                          double reach, double margin,
@@ -164,24 +164,24 @@ std::span<const FaceLimit> limits_beside(const SurfacePieces& pieces, const Vect
     return {limits.data(), count};
 }
 
-/// The way out of a position to the side on which `place` is. The pieces are seen from the free place, where each has a
-/// convex distance: the places behind its tangent plane are out of its reach for certain. Tangent planes at the free
-/// place that they lead to are the next ones, until it stays where it is.
-WayOut way_beside(const Geometry& geometry, const Vector3& position, Vector3 place, double reach)
+/// The exit from a position to the side on which `place` is. Each piece has a convex distance from the free position:
+/// places behind its tangent plane are certainly out of its reach. The tangent planes lead to the next free position,
+/// which has tangent planes of its own, until it no longer changes.
+ShortestExit exit_beside(const Geometry& geometry, const Vector3& position, Vector3 place, double reach)
 {
     SurfacePieces pieces;
     std::array<FaceLimit, SurfacePieces::capacity> storage;
     double margin = satisfied * reach;
-    WayOut way;
+    ShortestExit exit;
     place = lifted(geometry, place, reach, pieces);
     for (int turn = 0; turn < most_turns; ++turn) {
         pieces.clear();
         geometry.find_pieces(place, reach + std::max(margin, 2.0 * shortest_hop * reach), pieces);
         const auto limits = limits_beside(pieces, position, place, reach, margin, storage);
         // Limits contradict each other only where the place could not be lifted out of reach: the nearest face decides.
-        if (!find_shortest_move(limits, satisfied * reach, way))
-            find_shortest_move(limits.first(1), satisfied * reach, way);
-        Vector3 next = position + way.move;
+        if (!find_shortest_exit(limits, satisfied * reach, exit))
+            find_shortest_exit(limits.first(1), satisfied * reach, exit);
+        Vector3 next = position + exit.move;
         double change = (next - place).norm();
         if (change <= converged * reach)
             break;
@@ -192,19 +192,19 @@ WayOut way_beside(const Geometry& geometry, const Vector3& position, Vector3 pla
         margin = change;
         place = next;
     }
-    return way;
+    return exit;
 }
 
-SolidMeeting no_contact(const Vector3& position)
+SolidContact no_contact(const Vector3& position)
 {
-    SolidMeeting meeting;
-    meeting.free_place = position;
-    return meeting;
+    SolidContact contact;
+    contact.free_position = position;
+    return contact;
 }
 
 } // namespace
 
-double WayOut::pressing() const
+double ShortestExit::normal_force_factor() const
 {
     if (faces <= 1)
         return 1.0;
@@ -214,19 +214,19 @@ double WayOut::pressing() const
     return sum / move.norm();
 }
 
-bool find_shortest_move(std::span<const FaceLimit> limits, double tolerance, WayOut& way)
+bool find_shortest_exit(std::span<const FaceLimit> limits, double tolerance, ShortestExit& exit)
 {
-    way = {};
+    exit = {};
     Attempt now;
     // Every turn takes up the limit that is missed most, and the move grows: no set of faces comes twice.
     for (std::size_t turn = 0; turn < 2 * SurfacePieces::capacity; ++turn) {
         const FaceLimit* worst = nullptr;
         double most_missed = tolerance;
         for (const FaceLimit& limit : limits)
-            if (const double missed = limit.least - limit.normal.dot(now.way.move); missed > most_missed)
+            if (const double missed = limit.least - limit.normal.dot(now.exit.move); missed > most_missed)
                 most_missed = missed, worst = &limit;
         if (worst == nullptr) {
-            way = now.way;
+            exit = now.exit;
             return true;
         }
         const std::optional<Attempt> next = with_limit(now, worst, tolerance);
@@ -237,51 +237,51 @@ bool find_shortest_move(std::span<const FaceLimit> limits, double tolerance, Way
     return false;
 }
 
-SolidMeeting meet_nearest(const Vector3& position, double distance, const Vector3& normal, double reach)
+SolidContact exit_at_nearest_face(const Vector3& position, double distance, const Vector3& normal, double reach)
 {
-    SolidMeeting meeting;
-    meeting.way.faces = 1;
-    meeting.way.normals[0] = normal;
-    meeting.way.shares[0] = reach - distance;
-    meeting.way.move = (reach - distance) * normal;
-    meeting.free_place = position + meeting.way.move;
-    return meeting;
+    SolidContact contact;
+    contact.exit.faces = 1;
+    contact.exit.normals[0] = normal;
+    contact.exit.shares[0] = reach - distance;
+    contact.exit.move = (reach - distance) * normal;
+    contact.free_position = position + contact.exit.move;
+    return contact;
 }
 
-SolidMeeting meet(const Geometry& geometry, const Vector3& position, double distance, const Vector3& normal,
-                  double reach, const Vector3& last_free)
+SolidContact find_exit(const Geometry& geometry, const Vector3& position, double distance, const Vector3& normal,
+                       double reach, const Vector3& last_free_position)
 {
-    const bool known = last_free.x() == last_free.x();
-    const double moved_squared = known ? (position - last_free).squaredNorm() : 0.0;
+    const bool known = last_free_position.x() == last_free_position.x();
+    const double moved_squared = known ? (position - last_free_position).squaredNorm() : 0.0;
     if (!known || (distance > 0.0 && moved_squared < distance * distance)) { // no solid is between the two places
         if (distance >= reach)
             return no_contact(position);
-        const SolidMeeting nearest = meet_nearest(position, distance, normal, reach);
+        const SolidContact nearest = exit_at_nearest_face(position, distance, normal, reach);
         if (!geometry.has_pieces() || distance <= 0.0)
             return nearest;
         SurfacePieces pieces;
-        geometry.find_pieces(nearest.free_place, (1.0 - converged) * reach, pieces);
+        geometry.find_pieces(nearest.free_position, (1.0 - converged) * reach, pieces);
         if (pieces.empty())
             return nearest;
         if (!known) {
-            SolidMeeting meeting;
-            meeting.way = way_beside(geometry, position, nearest.free_place, reach);
-            meeting.free_place = position + meeting.way.move;
-            return meeting;
+            SolidContact contact;
+            contact.exit = exit_beside(geometry, position, nearest.free_position, reach);
+            contact.free_position = position + contact.exit.move;
+            return contact;
         }
-    } else if (distance >= reach && !leads_through(geometry, last_free, position, reach)) {
+    } else if (distance >= reach && !leads_through(geometry, last_free_position, position, reach)) {
         return no_contact(position);
     }
 
-    SolidMeeting meeting;
-    meeting.way = way_beside(geometry, position, first_within(geometry, last_free, position, reach), reach);
-    meeting.free_place = position + meeting.way.move;
-    const double overlap = (meeting.free_place - position).norm();
-    if (distance > 0.0 && overlap > reach && leads_through(geometry, position, meeting.free_place, reach))
-        meeting = {.way = {}, .free_place = position, .crossed = true};
+    SolidContact contact;
+    contact.exit = exit_beside(geometry, position, first_within(geometry, last_free_position, position, reach), reach);
+    contact.free_position = position + contact.exit.move;
+    const double overlap = (contact.free_position - position).norm();
+    if (distance > 0.0 && overlap > reach && leads_through(geometry, position, contact.free_position, reach))
+        contact = {.exit = {}, .free_position = position, .crossed = true};
     else if (distance >= reach)
         return no_contact(position);
-    return meeting;
+    return contact;
 }
 
 } // namespace periporo

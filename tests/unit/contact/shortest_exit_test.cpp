@@ -1,8 +1,8 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The way out of reach of a solid: corners, valleys and flush faces of all geometries, thin plates, leaps.
-#include "contact/way_out.hpp"
+// The exit from the reach of a solid: corners, valleys and flush faces of all geometries, thin plates, leaps.
+#include "contact/shortest_exit.hpp"
 #include "support/corners.hpp"
 
 #include <doctest/doctest.h>
@@ -19,14 +19,14 @@ namespace {
 
 constexpr double reach = 5e-3; // [m]
 const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-/// The free place is found to 1e-9 of the reach, in a few turns that may each miss as much.
+/// The free position is found to 1e-9 of the reach, in a few turns that may each miss as much.
 constexpr double tolerance = 1e-8 * reach;
 
-SolidMeeting met(const Geometry& geometry, const Vector3& position, const Vector3& last_free = nowhere)
+SolidContact met(const Geometry& geometry, const Vector3& position, const Vector3& last_free_position = nowhere)
 {
     Vector3 normal;
     const double distance = geometry.signed_distance(position, normal);
-    return meet(geometry, position, distance, normal, reach, last_free);
+    return find_exit(geometry, position, distance, normal, reach, last_free_position);
 }
 
 struct RandomPlaces {
@@ -47,20 +47,20 @@ TEST_CASE("the shortest move satisfies all limits, and only faces that it touche
             const Vector3 normal = (up + 0.99 * random.inside(-1.0, 1.0).normalized()).normalized();
             limits.push_back({normal, random.between(-0.5, 1.0)});
         }
-        WayOut way;
-        REQUIRE(find_shortest_move(limits, 1e-12, way));
+        ShortestExit exit;
+        REQUIRE(find_shortest_exit(limits, 1e-12, exit));
         // The conditions of Karush, Kuhn and Tucker are enough for the least |u|^2 under linear limits.
         Vector3 sum = Vector3::Zero();
-        for (std::size_t f = 0; f < way.faces; ++f) {
-            CHECK(way.shares[f] >= 0.0);
-            sum += way.shares[f] * way.normals[f];
+        for (std::size_t f = 0; f < exit.faces; ++f) {
+            CHECK(exit.shares[f] >= 0.0);
+            sum += exit.shares[f] * exit.normals[f];
         }
-        CHECK((sum - way.move).norm() < 1e-12 * (1.0 + way.move.norm()));
+        CHECK((sum - exit.move).norm() < 1e-12 * (1.0 + exit.move.norm()));
         for (const FaceLimit& limit : limits) {
-            const double beyond = limit.normal.dot(way.move) - limit.least;
+            const double beyond = limit.normal.dot(exit.move) - limit.least;
             CHECK(beyond >= -1e-12);
-            for (std::size_t f = 0; f < way.faces; ++f)
-                if (limit.normal == way.normals[f])
+            for (std::size_t f = 0; f < exit.faces; ++f)
+                if (limit.normal == exit.normals[f])
                     CHECK(std::abs(beyond) < 1e-9); // normals as near as 1e-3 to a plane lose digits
         }
     }
@@ -77,10 +77,10 @@ TEST_CASE("in a concave corner of one obstacle each face pushes by its own overl
             CAPTURE(position.transpose());
             const Vector3 before = position + 0.1 * reach * random.inside(-1.0, 1.0).cwiseMax(0.0) + expected;
             for (const Vector3& last : {nowhere, before}) {
-                const SolidMeeting meeting = met(*corner.shape, position, last);
-                CHECK((meeting.way.move - expected).norm() < tolerance);
-                CHECK((meeting.free_place - position - expected).norm() < tolerance);
-                CHECK_FALSE(meeting.crossed);
+                const SolidContact contact = met(*corner.shape, position, last);
+                CHECK((contact.exit.move - expected).norm() < tolerance);
+                CHECK((contact.free_position - position - expected).norm() < tolerance);
+                CHECK_FALSE(contact.crossed);
             }
         }
     }
@@ -88,9 +88,9 @@ TEST_CASE("in a concave corner of one obstacle each face pushes by its own overl
 
 TEST_CASE("sums of normal forces are those of the faces")
 {
-    const SolidMeeting meeting = met(*solid_corners().front().shape, Vector3(0.9, 0.8, 2.0) * reach);
-    REQUIRE(meeting.way.faces == 2);
-    CHECK(meeting.way.pressing() == doctest::Approx(0.3 / std::hypot(0.1, 0.2)).epsilon(1e-8));
+    const SolidContact contact = met(*solid_corners().front().shape, Vector3(0.9, 0.8, 2.0) * reach);
+    REQUIRE(contact.exit.faces == 2);
+    CHECK(contact.exit.normal_force_factor() == doctest::Approx(0.3 / std::hypot(0.1, 0.2)).epsilon(1e-8));
 }
 
 TEST_CASE("flush faces are one face: edges between boxes, triangles or cells of a terrain are not felt")
@@ -122,10 +122,10 @@ TEST_CASE("flush faces are one face: edges between boxes, triangles or cells of 
             // what is deep was above before, a little beside
             const Vector3 last(position.x() + random.between(-1e-4, 1e-4), position.y() + random.between(-1e-4, 1e-4),
                                reach);
-            const SolidMeeting meeting = met(*floor.shape, position, position.z() > 0.0 && n % 4 == 0 ? nowhere : last);
+            const SolidContact contact = met(*floor.shape, position, position.z() > 0.0 && n % 4 == 0 ? nowhere : last);
             const double overlap = reach - position.z();
-            CHECK((meeting.way.move - overlap * Vector3::UnitZ()).norm() < tolerance);
-            CHECK(meeting.way.pressing() == doctest::Approx(1.0).epsilon(1e-6));
+            CHECK((contact.exit.move - overlap * Vector3::UnitZ()).norm() < tolerance);
+            CHECK(contact.exit.normal_force_factor() == doctest::Approx(1.0).epsilon(1e-6));
         }
     }
 }
@@ -138,9 +138,9 @@ TEST_CASE("two faces of a slight valley push no harder than one")
     RandomPlaces random;
     for (int n = 0; n < 100; ++n) {
         const double distance = random.between(0.1, 0.95) * reach;
-        const SolidMeeting meeting = met(*valley, {0.0, random.between(-0.01, 0.01), distance * upright});
-        // By symmetry the way out is upright, to where both slopes are at the reach.
-        CHECK((meeting.way.move - (reach - distance) * upright * Vector3::UnitZ()).norm() < tolerance);
+        const SolidContact contact = met(*valley, {0.0, random.between(-0.01, 0.01), distance * upright});
+        // By symmetry the exit is upright, to where both slopes are at the reach.
+        CHECK((contact.exit.move - (reach - distance) * upright * Vector3::UnitZ()).norm() < tolerance);
     }
 }
 
@@ -160,8 +160,8 @@ TEST_CASE("a convex edge or vertex pushes along the line from it, whatever the s
             if (n % 2 == 1)
                 position.z() = -0.02; // beside an edge
             const Vector3 from_edge = n % 2 == 1 ? Vector3(position.x(), position.y(), 0.0) : position;
-            const SolidMeeting meeting = met(*shape.shape, position);
-            CHECK((meeting.way.move - (reach - from_edge.norm()) * from_edge.normalized()).norm() < tolerance);
+            const SolidContact contact = met(*shape.shape, position);
+            CHECK((contact.exit.move - (reach - from_edge.norm()) * from_edge.normalized()).norm() < tolerance);
         }
     }
 }
@@ -181,16 +181,16 @@ TEST_CASE("a thin plate pushes back to the side from which a point came, until t
         int pushed = 0;
         for (double z = 1.2 * reach; z > -thickness; z -= 0.013 * reach, ++pushed) {
             const Vector3 position(0.01 + 0.1 * z, 0.002, z);
-            const SolidMeeting meeting = met(*plate.shape, position, last);
-            CHECK((meeting.way.move - std::max(0.0, reach - z) * Vector3::UnitZ()).norm() < tolerance);
-            REQUIRE_FALSE(meeting.crossed);
-            last = meeting.free_place;
+            const SolidContact contact = met(*plate.shape, position, last);
+            CHECK((contact.exit.move - std::max(0.0, reach - z) * Vector3::UnitZ()).norm() < tolerance);
+            REQUIRE_FALSE(contact.crossed);
+            last = contact.free_position;
         }
         CHECK(pushed > 100);
-        const SolidMeeting behind = met(*plate.shape, {0.01, 0.002, -thickness - 1e-5}, last);
+        const SolidContact behind = met(*plate.shape, {0.01, 0.002, -thickness - 1e-5}, last);
         CHECK(behind.crossed);
-        CHECK(behind.way.faces == 0);
-        CHECK(behind.free_place.z() < -thickness);
+        CHECK(behind.exit.faces == 0);
+        CHECK(behind.free_position.z() < -thickness);
     }
 }
 
@@ -200,13 +200,13 @@ TEST_CASE("a leap over a plate within one step is seen, one past its edge is non
     CHECK(met(*plate, {0.01, 0.0, -0.02}, {0.0, 0.0, 0.03}).crossed);
     CHECK(met(*plate, {0.01, 0.0, -4e-3}, {0.0, 0.0, 0.03}).crossed); // within the reach of its other side
     CHECK(met(*plate, {0.03, 0.0, 0.03}, {-0.03, 0.0, -0.03}).crossed);
-    const SolidMeeting past = met(*plate, {0.06, 0.0, -0.03}, {0.048, 0.0, 0.03});
+    const SolidContact past = met(*plate, {0.06, 0.0, -0.03}, {0.048, 0.0, 0.03});
     CHECK_FALSE(past.crossed);
-    CHECK(past.way.faces == 0);
-    CHECK(past.free_place == Vector3(0.06, 0.0, -0.03));
-    const SolidMeeting sunk = met(*plate, {0.01, 0.0, -1.9e-3}, {0.01, 0.0, 0.02}); // in one step, and not through
+    CHECK(past.exit.faces == 0);
+    CHECK(past.free_position == Vector3(0.06, 0.0, -0.03));
+    const SolidContact sunk = met(*plate, {0.01, 0.0, -1.9e-3}, {0.01, 0.0, 0.02}); // in one step, and not through
     CHECK_FALSE(sunk.crossed);
-    CHECK((sunk.way.move - (reach + 1.9e-3) * Vector3::UnitZ()).norm() < tolerance);
+    CHECK((sunk.exit.move - (reach + 1.9e-3) * Vector3::UnitZ()).norm() < tolerance);
 }
 
 TEST_CASE("the nearest piece is as far away as the surface, and the others are pieces beyond it")

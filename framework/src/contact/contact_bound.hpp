@@ -1,27 +1,39 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A contact law as a spring and a dashpot, for the stable step.
+// Bounds of contacts for the stable step: each law as a spring and a dashpot at full overlap.
 #pragma once
 
-#include "contact/contact_forces.hpp"
+#include "contact/assignment.hpp"
+#include "model/model.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 
 namespace periporo {
 
-/// Gap below which a contact counts in the estimate of the largest frequency, in spacings: it may close before the next
-/// estimate. Between points it is small, as points of a deposit lie just out of reach of each other everywhere.
+/// A contact counts in the estimate of the largest frequency when its gap is below this margin, in spacings: it may
+/// close before the next estimate. The margin between points is small, since the points of a deposit lie just out of
+/// reach of each other everywhere.
 inline constexpr double surface_margin = 0.5;
 inline constexpr double pair_margin = 0.1;
+
+/// Stiffness and damping of a point against the ground, over its mass, that together with those of all other points are
+/// nowhere below those of the contacts: with blocks S_i and C_i, sum u_i . S_i u_i m_i is at least twice the energy of
+/// the contacts for all displacements u, and the same holds of C_i and the power of the dashpots.
+struct ContactBound {
+    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(); ///< [1/s2]
+    Eigen::Matrix3d damping = Eigen::Matrix3d::Zero();   ///< [1/s]
+    double sharpest = 0.0; ///< square of the largest angular frequency of one contact alone [1/s2]
+};
 
 struct ContactSlopes {
     double stiffness; ///< [N/m]
     double damping;   ///< [N s/m]
 };
 
-/// Of a law at full overlap.
+/// Spring and dashpot of a law at full overlap.
 /// @param pair masses and volumes; not approaching
 inline ContactSlopes slopes(const Contact& law, const ContactPair& pair)
 {
@@ -34,7 +46,7 @@ inline ContactSlopes slopes(const Contact& law, const ContactPair& pair)
 }
 
 /// Square of the angular frequency that a contact alone has for the step: with a dashpot of zeta above 1.25 that of the
-/// dashpot, c/m, whose force must not stop the pair within a step before its spring has been felt [1/s2].
+/// dashpot, c/m, whose force must not stop the pair within a step before its spring has acted [1/s2].
 inline double sharpness(const ContactPair& pair, const ContactSlopes& slopes)
 {
     constexpr double part_of_dashpot = 0.4; // the restitution of zeta = 2 is then met as well as that of others
@@ -61,5 +73,10 @@ inline void add_everywhere(ContactBound& bound, const ContactPair& pair, const C
     bound.damping += slopes.damping * along;
     bound.sharpest = std::max(bound.sharpest, sharpness(pair, slopes));
 }
+
+/// Largest angular frequency of a contact of any point of the bodies with a rigid surface [1/s]
+double sharpest_at_rigid_surface(const Model& model, const ContactAssignment& assignment);
+/// Largest angular frequency of a contact of any two points of the two bodies [1/s]
+double sharpest_between_points(const Model& model, const ContactAssignment& assignment);
 
 } // namespace periporo

@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contact of free grains: no energy appears where a point comes loose or bonds again.
+// Contact of detached points: no energy appears where a point detaches or bonds again.
 #include "contact/contact_forces.hpp"
 #include "contact/short_range/short_range.hpp"
 #include "support/specimens.hpp"
@@ -16,10 +16,10 @@ namespace {
 
 const double spacing = 1e-2; // the law reaches 0.8 of it
 
-struct Grains {
+struct Row {
     /// In a row.
-    explicit Grains(const std::vector<double>& places) : Grains(positions(places)) {}
-    explicit Grains(const std::vector<Vector3>& places)
+    explicit Row(const std::vector<double>& places) : Row(positions(places)) {}
+    explicit Row(const std::vector<Vector3>& places)
         : model(specimens::from_positions(places, spacing)), contact({{short_range(), {0, 0}}})
     {
         find_first_families(model,
@@ -45,15 +45,15 @@ struct Grains {
         return law;
     }
 
-    /// Energy of the contacts of grains at `places` [spacings] of which those named are free [J].
-    double energy(const std::vector<double>& places, const std::vector<std::uint8_t>& free)
+    /// Energy of the contacts of points at `places` [spacings], of which some are detached [J].
+    double energy(const std::vector<double>& places, const std::vector<std::uint8_t>& detached)
     {
-        return energy(positions(places), free);
+        return energy(positions(places), detached);
     }
-    double energy(const std::vector<Vector3>& places, const std::vector<std::uint8_t>& free)
+    double energy(const std::vector<Vector3>& places, const std::vector<std::uint8_t>& detached)
     {
         model.state.points.position = places;
-        model.result.detached = free;
+        model.result.detached = detached;
         model.gather_ends();
         std::vector<Vector3> force(model.size(), Vector3::Zero());
         contact.add_reactions(model, 1e-5, ContactForces::Approach::none, force);
@@ -66,9 +66,9 @@ struct Grains {
 
 } // namespace
 
-TEST_CASE("a grain that comes loose takes the room it finds and no energy")
+TEST_CASE("a point that detaches has the reach to its nearest neighbour, and no energy")
 {
-    Grains grains({0.0, 0.5, 1.0});
+    Row grains({0.0, 0.5, 1.0});
     CHECK(grains.energy({0.0, 0.5, 1.0}, {0, 0, 0}) == 0.0);
     CHECK(grains.energy({0.0, 0.5, 1.0}, {0, 1, 0}) == 0.0);
     CHECK(grains.energy({0.0, 0.4, 1.0}, {0, 1, 0}) > 0.0);
@@ -77,9 +77,9 @@ TEST_CASE("a grain that comes loose takes the room it finds and no energy")
     CHECK(grains.energy({-0.3, 0.4, 2.0}, {0, 1, 0}) > 0.0);
 }
 
-TEST_CASE("a grain that bonds again keeps its reach against other grains until they part")
+TEST_CASE("a point that bonds again keeps its reach against detached points until they part")
 {
-    Grains grains({0.0, 0.8, 1.3});
+    Row grains({0.0, 0.8, 1.3});
     // the first grain has the whole reach, the second that of the third beside it
     CHECK(grains.energy({0.0, 0.8, 1.3}, {1, 1, 1}) == 0.0);
     CHECK(grains.energy({0.15, 0.8, 1.3}, {1, 1, 1}) == 0.0);
@@ -90,7 +90,7 @@ TEST_CASE("a grain that bonds again keeps its reach against other grains until t
     CHECK(grains.energy({0.15, 0.8, 1.6}, {1, 0, 0}) > 0.0);
 }
 
-TEST_CASE("the bounds of points cover the contacts of loose and of crowded grains, and not by much")
+TEST_CASE("the bounds of points cover the contacts of detached points, also where many touch, and not by much")
 {
     struct Heap {
         double apart;  // [spacings]
@@ -105,12 +105,12 @@ TEST_CASE("the bounds of points cover the contacts of loose and of crowded grain
         std::vector<Vector3> far = places;
         for (Vector3& x : far)
             x *= 3.0;
-        Grains grains(places);
-        const std::vector<std::uint8_t> all_free(places.size(), 1);
-        grains.energy(far, all_free); // each has the whole reach of the law now
-        grains.energy(places, all_free);
+        Row grains(places);
+        const std::vector<std::uint8_t> all_detached(places.size(), 1);
+        grains.energy(far, all_detached); // each has the whole reach of the law now
+        grains.energy(places, all_detached);
 
-        const auto law = Grains::short_range();
+        const auto law = Row::short_range();
         const double v = grains.model.state.points.volume[0];
         const double m = grains.model.state.points.mass[0];
         const ContactPair pair{0.0, 0.0, v, v, m, m};
