@@ -158,6 +158,60 @@ TEST_CASE("bodies in one another are refused, those that hardly overlap are a wa
     CHECK_FALSE(contains(warning(two("100 mm")), "lie in body"));
 }
 
+TEST_CASE("bodies that touch and have no contact pass through each other")
+{
+    const auto two = [](const std::string& origin, const std::string& contact) {
+        return with(standing, "[[contact]]",
+                    "[body.other]\nmaterial = \"rubber\"\ngeometry = { generator = 'box', size = ['100 mm', '100 mm', "
+                    "'100 mm'], origin = [0, 0, '" +
+                        origin + "'] }\n" + contact + "[[contact]]");
+    };
+    const std::string pair =
+        "[[contact]]\nlaw = \"short_range\"\nbetween = [\"block\", \"other\"]\nmodulus = \"1 MPa\"\n"
+        "friction = 0.5\nrestitution = 0.5\n";
+    CHECK(contains(warning(two("100 mm", "")),
+                   "bodies 'block' and 'other' touch, their nearest points 1 spacings apart"));
+    CHECK_FALSE(contains(warning(two("100 mm", pair)), "touch"));
+    CHECK_FALSE(contains(warning(two("150 mm", "")), "touch"));
+}
+
+TEST_CASE("a body whose bonds carry no stress is a warning")
+{
+    CHECK(contains(of_standing("--set discretization.horizon=1.2"), "bonds of body 'block' carry no stress"));
+    CHECK(contains(of_standing("--set discretization.horizon=1.42"), "bonds of body 'block' carry no stress"));
+    CHECK_FALSE(contains(of_standing("--set discretization.horizon=1.6"), "carry no stress"));
+    const std::string sheet =
+        with(standing, "size = [\"100 mm\", \"100 mm\", \"100 mm\"]", "size = [\"100 mm\", \"100 mm\", \"25 mm\"]");
+    CHECK(contains(warning(sheet), "bonds of body 'block' carry no stress"));
+}
+
+TEST_CASE("boundaries that hold a point at two speeds are told with both")
+{
+    const auto both = [](const std::string& one, const std::string& other) {
+        return standing + "[[boundary]]\nplane = \"z = 30 mm\"\n" + one + "\n[[boundary]]\nplane = \"z = 30 mm\"\n" +
+               other + "\n";
+    };
+    const std::string fixed = "type = \"fixed\"", moving = "type = \"moving\"\nvelocity = [0, 0, \"1 m/s\"]";
+    const std::string message = refusal(both(fixed, moving), "[[stage]]");
+    CHECK(contains(message,
+                   "is held twice along (0, 0, 1): at 1 m/s by boundary.1 (moving), and at 0 m/s by boundary.0"));
+    const std::string roller = "type = \"roller\"\ndirection = [0, 0, 1]";
+    CHECK_FALSE(contains(warning(both(roller, "type = \"fixed\"\nbody = \"block\"")), "held"));
+}
+
+TEST_CASE("what moves or presses faster and harder than a body can take is a warning")
+{
+    CHECK(contains(of_standing("--set body.block.water.type=uniform --set body.block.water.suction=\"100 MPa\" "
+                               "--set body.block.water.saturation=1"),
+                   "more than its bulk modulus"));
+    CHECK(contains(
+        warning(with(standing, "[[contact]]",
+                     "[obstacle.plate]\nvelocity = [0, 0, \"-100 m/s\"]\ngeometry = { generator = 'box', size = "
+                     "['1 m', '1 m', '10 mm'], origin = [0, 0, '1 m'] }\n[[contact]]\nlaw = \"penalty\"\nbetween "
+                     "= [\"block\", \"plate\"]\nmodulus = \"1 MPa\"\nfriction = 0.5\nrestitution = 0.5\n[[contact]]")),
+        "obstacle 'plate' moves at 100 m/s, faster than a wave"));
+}
+
 TEST_CASE("coordinates at which points coincide")
 {
     CHECK(contains(refusal_of_change(box, box.substr(0, box.size() - 2) + ", origin = [0, 0, 1e13] }", "{ generator"),

@@ -4,8 +4,10 @@
 #include "assembly/held_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 #include <stdexcept>
 
 namespace periporo {
@@ -83,22 +85,89 @@ void check_rollers(const Model& model, const StageDescription& stage)
     }
 }
 
+namespace {
+
+/// The directions in which one point is held, orthogonal to each other, and who holds it there.
+class HeldPoint {
+public:
+    /// Adds a direction. It may be one in which the point is held already.
+    /// @param holder in words, "[[boundary]] 2 (moving)"
+    /// @throws std::runtime_error when the point is held there at another speed
+    void add(const Model& model, HeldDirection held, const std::string& holder)
+    {
+        constexpr double same = 1e-6; // part of a unit vector that is round-off, or a direction written with few digits
+        const HeldDirection asked = held;
+        for (const HeldDirection& other : directions_) {
+            const double along = asked.direction.dot(other.direction);
+            held.direction -= along * other.direction;
+            held.speed -= along * other.speed;
+        }
+        const double left = held.direction.norm();
+        if (left > same) {
+            held.direction /= left;
+            held.speed /= left;
+            directions_.push_back(held);
+            holders_.push_back(holder);
+            return;
+        }
+        double fastest = std::abs(asked.speed);
+        for (const HeldDirection& other : directions_)
+            fastest = std::max(fastest, std::abs(other.speed));
+        if (std::abs(held.speed) <= same * fastest)
+            return;
+        const Vector3& d = asked.direction;
+        throw std::runtime_error(fmt::format("point {} of body '{}' is held twice along ({:.3g}, {:.3g}, {:.3g}): at "
+                                             "{:.4g} m/s by {}, and at {:.4g} m/s by "
+                                             "{}; let them hold other points, or hold in other stages",
+                                             model.state.points.id[asked.point], model.body_of(asked.point).name, d.x(),
+                                             d.y(), d.z(), asked.speed, holder, asked.speed - held.speed,
+                                             fmt::join(holders_, " and ")));
+    }
+    const std::vector<HeldDirection>& directions() const { return directions_; }
+
+private:
+    std::vector<HeldDirection> directions_; // 3 at most
+    std::vector<std::string> holders_;
+};
+
+/// What is held, point by point.
+class HeldPoints {
+public:
+    explicit HeldPoints(const Model& model) : model_(model) {}
+
+    void add(const HeldDirection& held, const std::string& holder) { points_[held.point].add(model_, held, holder); }
+    std::vector<HeldDirection> directions() const
+    {
+        std::vector<HeldDirection> all;
+        for (const auto& [point, held] : points_)
+            all.insert(all.end(), held.directions().begin(), held.directions().end());
+        return all;
+    }
+
+private:
+    const Model& model_;
+    std::map<std::uint32_t, HeldPoint> points_;
+};
+
+} // namespace
+
 std::vector<HeldDirection> held_directions(const Model& model, const CaseDescription& description,
                                            const std::vector<std::vector<std::uint32_t>>& regions,
                                            const StageDescription& stage)
 {
-    std::vector<HeldDirection> held;
+    HeldPoints held(model);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const HeldRegionDescription& region = description.held_regions[r];
         if (!applies_in(region.stages, stage))
             continue;
+        const std::string holder = fmt::format("{} ({})", region.key, name_of(region.kind));
         for (const std::uint32_t i : regions[r]) {
             if (region.kind == HeldKind::roller) {
-                held.push_back({i, region.direction});
+                held.add({i, region.direction}, holder);
                 continue;
             }
             for (Eigen::Index c = 0; c < 3; ++c)
-                held.push_back({i, Vector3::Unit(c), region.velocity[c]});
+                held.add({i, Vector3::Unit(c), region.velocity[c]}, holder);
         }
     }
     for (const PlaneDescription& roller : stage.rollers) {
@@ -108,10 +177,11 @@ std::vector<HeldDirection> held_directions(const Model& model, const CaseDescrip
             const Vector3& x = model.state.points.initial_position[i];
             const Vector3 radial(x.x(), x.y(), 0.0);
             if (radial.norm() > roller.offset - model.state.spacing)
-                held.push_back({i, radial.normalized()});
+                held.add({i, radial.normalized()},
+                         fmt::format("the roller r = {:.4g} m of stage '{}'", roller.offset, stage.name));
         }
     }
-    return held;
+    return held.directions();
 }
 
 } // namespace periporo

@@ -31,7 +31,9 @@ std::string describe_region(const HeldRegionDescription& region, std::size_t poi
 void check_rollers(const Model& model, const StageDescription& stage);
 
 /// What is held in a stage: the points of the regions, and the points at the cylindrical rollers of the stage ("r = 100
-/// mm", about the z axis), within one spacing of the outermost ring, in the radial direction.
+/// mm", about the z axis), within one spacing of the outermost ring, in the radial direction. The directions of a point
+/// are orthogonal to each other, and lie side by side.
+/// @throws std::runtime_error when a point is held twice along one direction, at different speeds.
 std::vector<HeldDirection> held_directions(const Model& model, const CaseDescription& description,
                                            const std::vector<std::vector<std::uint32_t>>& regions,
                                            const StageDescription& stage);

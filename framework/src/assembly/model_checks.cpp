@@ -5,15 +5,18 @@
 
 #include "assembly/geometries.hpp"
 #include "assembly/gravity_checks.hpp"
+#include "assembly/meeting_checks.hpp"
 #include "assembly/plane_checks.hpp"
 #include "assembly/value_checks.hpp"
 #include "case/refusal.hpp"
 #include "contact/rigid_contact_surface.hpp"
 #include "neighbourhood/cell_list.hpp"
+#include "water/pore_stress.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 
 namespace periporo {
@@ -207,6 +210,31 @@ void check_speeds(const Model& model, const CaseDescription& description, std::v
                 description, body_key(model, b) + ".velocity",
                 fmt::format("body '{}' begins with up to {:.4g} m/s, faster than a wave runs in it, {:.4g} m/s",
                             model.state.bodies[b].name, fastest[b], wave)));
+        for (const ObstacleDescription& obstacle : description.obstacles)
+            if (obstacle.velocity.norm() > wave)
+                suspicions.push_back(suspicion(
+                    description, "obstacle." + obstacle.name + ".velocity",
+                    fmt::format("obstacle '{}' moves at {:.4g} m/s, faster than a wave runs in body '{}', {:.4g} m/s",
+                                obstacle.name, obstacle.velocity.norm(), model.state.bodies[b].name, wave)));
+    }
+}
+
+/// Suction that would press a body to nothing: the strain that S_r s means is that stress over the bulk modulus.
+void check_suction(const Model& model, const CaseDescription& description, std::vector<std::string>& suspicions)
+{
+    std::vector<double> largest(model.state.bodies.size(), 0.0);
+    for (std::size_t i = 0; i < model.size(); ++i) {
+        double& stress = largest[model.state.points.body[i]];
+        stress = std::max(stress, pore_stress(model.state.points.suction(i), model.state.points.saturation[i]));
+    }
+    for (std::size_t b = 0; b < largest.size(); ++b) {
+        const double modulus = model.state.bodies[b].material->bulk_modulus();
+        if (largest[b] > modulus)
+            suspicions.push_back(
+                suspicion(description, body_key(model, b) + ".water",
+                          fmt::format("suction presses body '{}' together with up to S_r s = {:.4g} Pa, "
+                                      "more than its bulk modulus of {:.4g} Pa",
+                                      model.state.bodies[b].name, largest[b], modulus)));
     }
 }
 
@@ -251,6 +279,7 @@ std::vector<std::string> check_model(const BuiltModel& built, const CaseDescript
     });
     if (distinct)
         check_overlaps(built.model, description, geometries, refusals, suspicions);
+    std::ranges::copy(check_meetings(built, description), std::back_inserter(suspicions));
     check_planes(built, description, geometries, refusals, suspicions);
     for (std::size_t c = 0; c < built.contacts.size(); ++c) {
         const std::string key = fmt::format("contact.{}", c);
@@ -260,6 +289,7 @@ std::vector<std::string> check_model(const BuiltModel& built, const CaseDescript
     refusals.attempt("gravity", [&] { check_gravity(built, description, suspicions); });
     check_values(built, description, refusals, suspicions);
     check_speeds(built.model, description, suspicions);
+    check_suction(built.model, description, suspicions);
     check_stages(description, suspicions);
     refusals.raise();
     return suspicions;

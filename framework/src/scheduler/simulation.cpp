@@ -8,6 +8,7 @@
 #include "assembly/held_points.hpp"
 #include "assembly/model_checks.hpp"
 #include "assembly/size_estimate.hpp"
+#include "assembly/stiffness_checks.hpp"
 #include "case/refusal.hpp"
 #include "diagnostics/summary.hpp"
 #include "diagnostics/vertical_stress.hpp"
@@ -109,6 +110,7 @@ void Simulation::check(const BuiltModel& built, Geometries& geometries)
     for (std::size_t s = 0; s < description_.stages.size(); ++s)
         refusals.attempt(fmt::format("stage.{}", s), [&] {
             IsometryTable().set_generators(image_generators(description_, description_.stages[s]));
+            held_directions(built.model, description_, built.held_regions, description_.stages[s]);
         });
     progress_.clear();
     refusals.raise();
@@ -127,9 +129,12 @@ void Simulation::prepare(std::optional<ArchiveReader> checkpoint)
         check_fields(description_, registry_, model_, *force_state_);
     });
     progress_.clear();
-    if (!resumed_ && !options_.stand_in)
-        for (const std::string& warning : check_durations(description_, step_of_dynamic_stages()))
-            log_->warn(warning);
+    if (resumed_ || options_.stand_in)
+        return;
+    for (const std::string& warning : check_stiffness(model_, description_))
+        log_->warn(warning);
+    for (const std::string& warning : check_durations(description_, step_of_dynamic_stages()))
+        log_->warn(warning);
 }
 
 RunOutcome Simulation::run()

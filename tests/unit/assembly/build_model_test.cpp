@@ -196,6 +196,30 @@ TEST_CASE("a fixed region holds all directions of the points that begin below it
         CHECK(sum == Vector3::Ones());
 }
 
+TEST_CASE("two oblique rollers hold a point along both directions, by directions that are orthogonal")
+{
+    const CaseDescription description = quickstart_with(R"(
+[[boundary]]
+type = "roller"
+plane = "z = 10 mm"
+direction = [0, 0, 1]
+[[boundary]]
+type = "roller"
+plane = "z = 10 mm"
+direction = [1, 0, 1]
+)");
+    const BuiltModel made = built(description);
+    const std::vector<HeldDirection> held =
+        held_directions(made.model, description, made.held_regions, description.stages[1]);
+    REQUIRE(held.size() == 200); // two directions of each of the 100 points of the lowest layer
+    for (std::size_t h = 0; h < held.size(); h += 2) {
+        REQUIRE(held[h].point == held[h + 1].point);
+        CHECK(std::abs(held[h].direction.dot(held[h + 1].direction)) < 1e-15);
+        // what is left free is the y axis alone
+        CHECK(std::abs(held[h].direction.cross(held[h + 1].direction).y()) == doctest::Approx(1.0).epsilon(1e-15));
+    }
+}
+
 TEST_CASE("rollers and moving regions hold points of a layer, of a geometry and of a body, in their stages")
 {
     const CaseDescription description = quickstart_with(R"(
