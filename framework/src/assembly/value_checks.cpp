@@ -4,7 +4,7 @@
 #include "assembly/value_checks.hpp"
 
 #include "assembly/held_points.hpp"
-#include "contact/assignment.hpp"
+#include "contact/rigid_contact_surface.hpp"
 
 #include <algorithm>
 #include <array>
