@@ -1,7 +1,7 @@
 # Copyright 2026 The periporo authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-"""Breaks the operator, the water and the checkpoints on purpose and demands that a test notices.
+"""Breaks the operator, the water, contact and the checkpoints on purpose and demands that a test notices.
 
 A mutation replaces one text in one source. The mutated source is compiled with the command of the build, linked in
 front of the framework's library into a test program, and one test of the program must report a failed check.
@@ -44,6 +44,8 @@ _IDENTITIES = "properties.operator_identities_test"
 _REFRESH = "unit.operator.refresh_test"
 _WATER = "unit.water.water_test"
 _STANDING_WATER = "unit.water.standing_water_test"
+_CONTACT_KINDS = "unit.contact.contact_kinds_test"
+_SMOOTHED_SURFACE = "unit.contact.smoothed_surface_test"
 
 MUTATIONS = {
     "influence_dropped_from_the_force": Mutation(
@@ -174,6 +176,27 @@ MUTATIONS = {
         "if (stored_points_.size() != stored_energies_.size() ||",
         "stored_points_.clear();\n    stored_energies_.clear();\n    if (stored_points_.size() != stored_energies_.size() ||",
         "unit.time.obstacle_corners_test",
+    ),
+    "contacts_of_images_not_counted": Mutation(
+        "contact/point_contact.cpp", "model.neighbourhood.fill_images(contacts_of_);", "", _CONTACT_KINDS
+    ),
+    "reach_of_images_lost": Mutation(
+        "contact/one_body_contact.cpp", "model.neighbourhood.fill_images(reach_of_end_);", "", _CONTACT_KINDS
+    ),
+    "images_of_detached_points_taken_for_bonded": Mutation(
+        "contact/one_body_contact.cpp", "model.neighbourhood.fill_images(detached_);", "", _CONTACT_KINDS
+    ),
+    "load_on_images_of_a_surface_lost": Mutation(
+        "contact/smoothed_surface_contact.cpp",
+        "model.neighbourhood.fill_images(total_slope_);",
+        "",
+        _SMOOTHED_SURFACE,
+    ),
+    "energy_of_lost_support_not_dissipated": Mutation(
+        "contact/contact_forces.cpp",
+        "dissipated += std::max(0.0, stored_before_[i] - stored_after_[i]);",
+        "",
+        _SMOOTHED_SURFACE,
     ),
 }
 

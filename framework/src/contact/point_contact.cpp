@@ -24,14 +24,32 @@ void PointContact::for_each_active(const Model& model, const Visit& visit) const
     failure.rethrow();
 }
 
+template <class Visit>
+void PointContact::for_each_contact(const Model& model, std::uint32_t point, const TouchingNeighbours& neighbours,
+                                    const Visit& visit) const
+{
+    const Points& points = model.state.points;
+    const Vector3 x = model.ends[point].x();
+    const double cutoff = law().cutoff();
+    for (const std::uint32_t c : neighbours.ends) {
+        const BondEnd& other = model.ends[c];
+        const Vector3 apart = x - other.x();
+        const double distance = apart.norm();
+        const double touching = neighbours.distance(c);
+        if (distance >= touching || distance <= 0.0)
+            continue;
+        const ContactPair at_rest{
+            distance + (cutoff - touching), 0.0, points.volume[point], other.volume, points.mass[point], other.mass};
+        visit(c, Vector3(apart / distance), (touching - distance) / touching, at_rest);
+    }
+}
+
 void PointContact::count_contacts(const Model& model)
 {
     contacts_of_.assign(model.neighbourhood.ends(), 0);
     for_each_active(model, [&](std::uint32_t i, const TouchingNeighbours& neighbours) {
-        contacts_of_[i] += static_cast<std::uint32_t>(std::ranges::count_if(neighbours.ends, [&](std::uint32_t c) {
-            const double distance = (model.ends[i].x() - model.ends[c].x()).norm();
-            return distance < neighbours.distance(c) && distance > 0.0;
-        }));
+        for_each_contact(model, i, neighbours,
+                         [&](std::uint32_t, const Vector3&, double, const ContactPair&) { ++contacts_of_[i]; });
     });
     model.neighbourhood.fill_images(contacts_of_);
 }
@@ -60,9 +78,8 @@ void PointContact::add_contacts_of(const Model& model, std::uint32_t point, cons
     std::array<Vector3, block> normals;
     std::array<Vector3, block> slips;
     std::array<double, block> shares; // contacts of the end that has more of them: each stops its share of the slip
-    const Points& points = model.state.points;
-    const Vector3 x = model.ends[point].x();
     const Vector3 v = model.ends[point].v();
+    const double mu = law().friction();
     std::size_t count = 0;
     const auto evaluate_block = [&] {
         law().evaluate(std::span(pairs.data(), count), std::span(responses.data(), count));
@@ -74,61 +91,49 @@ void PointContact::add_contacts_of(const Model& model, std::uint32_t point, cons
             if (speed <= 0.0 || step.time_step <= 0.0)
                 continue;
             const double stops = reduced_mass(pairs[c]) * speed / (step.time_step * shares[c]);
-            const double size = std::min(law().friction() * std::max(0.0, responses[c].force), stops);
+            const double size = std::min(mu * std::max(0.0, responses[c].force), stops);
             const Vector3 friction = -(size / speed) * slips[c];
             force[point] += friction;
             sums.friction[point] += friction;
         }
         count = 0;
     };
-    for (const std::uint32_t c : neighbours.ends) {
-        const BondEnd& other = model.ends[c];
-        const Vector3 apart = x - other.x();
-        const double distance = apart.norm();
-        const double touching = neighbours.distance(c);
-        if (distance >= touching || distance <= 0.0)
-            continue;
-        overlaps_[point] = std::max(overlaps_[point], (touching - distance) / touching);
-        const Vector3 normal = apart / distance;
-        const Vector3 relative = v - other.v();
-        const double opening = relative.dot(normal);
-        pairs[count] = {distance + (law().cutoff() - touching),
-                        -step.approach_factor * opening,
-                        points.volume[point],
-                        other.volume,
-                        points.mass[point],
-                        other.mass,
-                        step.law_step};
-        normals[count] = normal;
-        slips[count] = relative - opening * normal;
-        shares[count] = std::max(contacts_of_[point], contacts_of_[c]);
-        if (++count == block)
-            evaluate_block();
-    }
+    for_each_contact(model, point, neighbours,
+                     [&](std::uint32_t c, const Vector3& normal, double overlap, const ContactPair& at_rest) {
+                         overlaps_[point] = std::max(overlaps_[point], overlap);
+                         const Vector3 relative = v - model.ends[c].v();
+                         const double opening = relative.dot(normal);
+                         pairs[count] = at_rest;
+                         pairs[count].approach_speed = -step.approach_factor * opening;
+                         pairs[count].time_step = step.law_step;
+                         normals[count] = normal;
+                         slips[count] = relative - opening * normal;
+                         shares[count] = std::max(contacts_of_[point], contacts_of_[c]);
+                         if (++count == block)
+                             evaluate_block();
+                     });
     evaluate_block();
 }
 
 void PointContact::add_stored_energy(const Model& model, std::vector<double>& energy)
 {
     find_active_points(model);
-    const Points& points = model.state.points;
     for_each_active(model, [&](std::uint32_t i, const TouchingNeighbours& neighbours) {
-        for (const std::uint32_t c : neighbours.ends) {
-            const BondEnd& other = model.ends[c];
-            const double distance = (model.ends[i].x() - other.x()).norm();
-            const double touching = neighbours.distance(c);
-            if (distance >= touching || distance <= 0.0)
-                continue;
-            const ContactPair pair{distance + (law().cutoff() - touching),
-                                   0.0,
-                                   points.volume[i],
-                                   other.volume,
-                                   points.mass[i],
-                                   other.mass};
-            ContactResponse response;
-            law().evaluate({&pair, 1}, {&response, 1});
-            energy[i] += 0.5 * response.energy;
-        }
+        std::array<ContactPair, block> pairs;
+        std::array<ContactResponse, block> responses;
+        std::size_t count = 0;
+        const auto evaluate_block = [&] {
+            law().evaluate(std::span(pairs.data(), count), std::span(responses.data(), count));
+            for (std::size_t c = 0; c < count; ++c)
+                energy[i] += 0.5 * responses[c].energy; // the other end counts the other half
+            count = 0;
+        };
+        for_each_contact(model, i, neighbours, [&](std::uint32_t, const Vector3&, double, const ContactPair& at_rest) {
+            pairs[count] = at_rest;
+            if (++count == block)
+                evaluate_block();
+        });
+        evaluate_block();
     });
 }
 

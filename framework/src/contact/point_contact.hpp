@@ -78,6 +78,10 @@ private:
     /// Calls visit(point, neighbours) for each active point and each list of its neighbours. In parallel.
     template <class Visit>
     void for_each_active(const Model& model, const Visit& visit) const;
+    /// Calls visit(end, normal, overlap over the distance of touch, pair at rest) for each contact of a point.
+    template <class Visit>
+    void for_each_contact(const Model& model, std::uint32_t point, const TouchingNeighbours& neighbours,
+                          const Visit& visit) const;
     void count_contacts(const Model& model);
     /// Sums the contacts of a point with its neighbours.
     void add_contacts_of(const Model& model, std::uint32_t point, const TouchingNeighbours& neighbours,

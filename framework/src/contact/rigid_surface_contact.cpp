@@ -135,12 +135,11 @@ void RigidSurfaceContact::add_reaction(const Model& model, const ContactStep& st
 }
 
 ShortestExit RigidSurfaceContact::find_exit_of(const Model& model, const RigidContactSurface& surface,
-                                               std::uint32_t point, ContactSums& sums)
+                                               double whole_reach, std::uint32_t point, ContactSums& sums)
 {
     const Vector3& position = model.state.points.position[point];
     Vector3 normal;
     const double distance = surface.distance(position, normal);
-    const double whole_reach = law().cutoff();
     double reach = whole_reach;
     if (!reach_.empty())
         reach = reach_[point] = std::clamp(distance, reach_[point], whole_reach);
@@ -192,7 +191,7 @@ void RigidSurfaceContact::add_reactions(const Model& model, const ContactStep& s
         count = 0;
     };
     for (const std::uint32_t i : near_points_) {
-        const ShortestExit exit = find_exit_of(model, surface, i, sums);
+        const ShortestExit exit = find_exit_of(model, surface, reach, i, sums);
         if (exit.faces == 0)
             continue;
         const double overlap = exit.faces == 1 ? exit.shares[0] : exit.move.norm();
@@ -216,6 +215,7 @@ void RigidSurfaceContact::add_friction_last(const Model& model, double time_step
     if (time_step <= 0.0)
         return;
     const Vector3 velocity = RigidContactSurface(model, assignment()).velocity();
+    const double mu = law().friction();
     for (const Touch& touch : touches_) {
         const std::uint32_t i = touch.point;
         const Vector3 drive =
@@ -224,7 +224,7 @@ void RigidSurfaceContact::add_friction_last(const Model& model, double time_step
         const double size = tangential.norm();
         if (size <= 0.0)
             continue;
-        const double largest = law().friction() * std::max(0.0, touch.normal_force);
+        const double largest = mu * std::max(0.0, touch.normal_force);
         const Vector3 friction = -(std::min(largest, size) / size) * tangential;
         force[i] += friction;
         sums.friction[i] += friction;

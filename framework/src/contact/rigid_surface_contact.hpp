@@ -67,8 +67,9 @@ private:
     /// Number of the reaction of the surface among ContactSums::obstacle_reactions.
     std::size_t number_of_reaction(const Model& model) const;
     /// Finds the exit of a point near the surface; without faces if the point does not touch.
-    ShortestExit find_exit_of(const Model& model, const RigidContactSurface& surface, std::uint32_t point,
-                              ContactSums& sums);
+    /// @param whole_reach of the law [m]
+    ShortestExit find_exit_of(const Model& model, const RigidContactSurface& surface, double whole_reach,
+                              std::uint32_t point, ContactSums& sums);
     void add_reaction(const Model& model, const ContactStep& step, const ContactPair& pair,
                       const ContactResponse& response, std::uint32_t point, const ShortestExit& exit, ContactSums& sums,
                       std::vector<Vector3>& force);

@@ -70,7 +70,8 @@ void SmoothedSurfaceContact::evaluate(const PairOf& pair_of, const Use& use)
 void SmoothedSurfaceContact::add_reactions(const Model& model, const ContactStep& step, ContactSums& sums,
                                            std::vector<Vector3>& force)
 {
-    find_supported_points(model, law().cutoff());
+    const double reach = law().cutoff();
+    find_supported_points(model, reach);
     const auto moving_pair = [&](const SupportedPoint& supported) {
         const Support& support = supported.support;
         double opening = support.own_slope.dot(model.ends[supported.point].v());
@@ -84,7 +85,7 @@ void SmoothedSurfaceContact::add_reactions(const Model& model, const ContactStep
     // In the order of the points: the sum on a point of the surface is then the same for any number of threads.
     evaluate(moving_pair,
              [&](const SupportedPoint& supported, const ContactPair& pair, const ContactResponse& response) {
-                 record_overlap((law().cutoff() - pair.distance) / law().cutoff());
+                 record_overlap((reach - pair.distance) / reach);
                  sums.energy[supported.point] += supported.support.strength * response.energy;
                  add_reaction(model, supported, pair, response, step.time_step, sums, force);
              });
