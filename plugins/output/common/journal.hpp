@@ -46,7 +46,8 @@ struct JournalContent {
     std::optional<std::uint64_t> last_step(RecordKind kind) const;
 };
 
-/// A kill leaves the journal with its last record cut or without it. Damaged bytes cost the records that they are in.
+/// A kill leaves the journal with its last record cut or without it. Damaged bytes cost the records that they are in;
+/// lost and doubled ones cost no record behind them.
 class Journal {
 public:
     Journal() = default;

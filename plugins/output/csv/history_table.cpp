@@ -5,6 +5,7 @@
 #include "history_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -150,9 +151,11 @@ HistoryTable HistoryTable::resume(const RunDescription& run)
         fmt::format("{} up to step {}: {} rows are sound", file.string(), run.resumed_step, kept.rows.size());
     if (sums.size() > kept.rows.size())
         said += fmt::format(", {} are lost", sums.size() - kept.rows.size());
-    if (content.damaged)
+    if (content.damaged && content.losses().empty())
+        said += fmt::format("; {} was damaged and is mended", csv_journal_name);
+    else if (content.damaged)
         said += fmt::format("; {} is damaged, so that rows may be wrong or lost {}", csv_journal_name,
-                            content.losses().empty() ? "anywhere" : content.losses().back());
+                            fmt::join(content.losses(), " and "));
     if (!text.empty() && !std::string_view(text).starts_with(mended)) {
         const std::filesystem::path damaged = name_when_damaged(file);
         write_whole(damaged, text);

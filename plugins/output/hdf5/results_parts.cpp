@@ -118,6 +118,9 @@ ResultsParts ResultsParts::resume(const RunDescription& run, int compression,
             fmt::join(results.missing_.begin(), results.missing_.begin() + static_cast<std::ptrdiff_t>(told), "; "),
             told < results.missing_.size() ? fmt::format("; and {} more", results.missing_.size() - told) : ""));
     }
+    if (journal.damaged && journal.losses().empty())
+        run.warn(fmt::format("{} was damaged and is mended; no row is lost, and the damaged file is kept beside it",
+                             (results.parts_ / journal_name).string()));
     // The result file stops showing what is later than the checkpoint before that is deleted.
     results.show();
     for (const std::string& name : later)

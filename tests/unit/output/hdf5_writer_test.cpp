@@ -475,6 +475,52 @@ TEST_CASE("rows of a damaged journal are lost one by one, and never read as numb
     }
 }
 
+TEST_CASE("bytes that are doubled, lost or put into a journal cost no row behind them")
+{
+    constexpr std::size_t head = 64, record = 24 + 3 * sizeof(double); // of a journal with three values a record
+    const auto expected = whole_run(60);
+    const std::size_t place = head + 20 * record; // in front of a row
+    struct Change {
+        const char* name;
+        std::function<void(std::string&)> make;
+        std::size_t rows;
+        const char* said;
+    };
+    const std::vector<Change> changes{
+        {"a record doubled", [&](std::string& bytes) { bytes.insert(place, bytes.substr(place, record)); }, 61,
+         "journal was damaged and is mended; no row is lost"},
+        {"bytes put in", [&](std::string& bytes) { bytes.insert(place, "of somebody else"); }, 61,
+         "journal was damaged and is mended; no row is lost"},
+        {"two rows exchanged",
+         [&](std::string& bytes) {
+             const std::string row = bytes.substr(place, record);
+             bytes.erase(place, record).insert(place + record, row);
+         },
+         60, "rows of the history between steps"},
+        {"a record lost", [&](std::string& bytes) { bytes.erase(place, record); }, 60,
+         "rows of the history between steps"},
+        {"a byte lost", [&](std::string& bytes) { bytes.erase(place + 7, 1); }, 60,
+         "rows of the history between steps"}};
+    for (const Change& change : changes) {
+        CAPTURE(change.name);
+        const TemporaryFolder folder;
+        stop_at(folder.path(), 45);
+        std::string bytes = file_text(folder / "results.parts/journal");
+        change.make(bytes);
+        std::ofstream(folder / "results.parts/journal", std::ios::binary) << bytes;
+        test::check_mentions(finish_from(folder.path(), 45, 60), {change.said});
+        CHECK(std::filesystem::exists(folder / "results.parts/journal.damaged"));
+        const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+        const std::vector<std::int64_t> steps = integers(file, "/history/step");
+        const std::vector<double> energy = reals(file, "/history/kinetic_energy");
+        CHECK(steps.size() == change.rows);
+        CHECK(std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) == steps.end());
+        for (std::size_t r = 0; r < steps.size(); ++r)
+            CHECK(energy[r] == test::made_up_value(static_cast<std::uint64_t>(steps[r]), 0));
+        CHECK(content_of(folder / "results.h5").contains("/snapshots/000006/position"));
+    }
+}
+
 TEST_CASE("a journal that ends before the checkpoint is said to lack rows, and one of zeros has none")
 {
     for (const bool zeros : {false, true}) {
