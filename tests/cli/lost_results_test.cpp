@@ -12,7 +12,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <map>
+#include <string>
+#include <vector>
 
 using namespace periporo::test;
 
@@ -140,6 +143,39 @@ TEST_CASE("--without-lost-results goes on with the true numbers and a lasting ma
     CHECK(contains(summary.at("losses").dump(), "snapshot 000002 of step 8, time 0.0008 s"));
     CHECK(contains(ProgramFolder::read(folder.it() / "run.log"), "complete, but parts of the results are lost"));
     CHECK(contains(ProgramFolder::read(folder.it() / "results.h5"), "snapshot 000002 of step 8")); // its "missing"
+}
+
+TEST_CASE("the losses in the summary are one entry for each loss, also when the terminal names a part of them")
+{
+    const RunFolder folder;
+    REQUIRE(folder.go("--stop-after 17 --set 'output.0.every=0.2 ms'").status == 130); // nine snapshots
+    for (int number = 0; number < 8; ++number)
+        folder.write(fmt::format("it/results.parts/{:06}-{}.h5", number, 2 * number), "damaged");
+    const ProgramResult result = folder.go("--resume --set 'output.0.every=0.2 ms' --stop-after 18");
+    CAPTURE(result.error);
+    REQUIRE(result.status == 130);
+    CHECK(contains(result.error, "and 2 more"));
+    REQUIRE(folder.go("--resume --set 'output.0.every=0.2 ms'").status == 0); // which finds the same losses
+    const auto losses = nlohmann::json::parse(ProgramFolder::read(folder.it() / "summary.json"))
+                            .at("losses")
+                            .get<std::vector<std::string>>();
+    CHECK(losses.size() == 8);
+    for (int number = 0; number < 8; ++number)
+        CHECK(std::ranges::any_of(losses, [&](const std::string& loss) {
+            return loss.starts_with(fmt::format("snapshot {:06} of step {}", number, 2 * number));
+        }));
+}
+
+TEST_CASE("what is damaged and mended without a loss is no loss in the summary")
+{
+    const RunFolder folder;
+    folder.stop_after_ten();
+    const std::string bytes = ProgramFolder::read(folder.it() / "history.csv.journal");
+    folder.write("it/history.csv.journal", bytes.substr(0, 64) + "put in" + bytes.substr(64));
+    const ProgramResult result = folder.go("--resume");
+    REQUIRE(result.status == 0);
+    CHECK(contains(result.error, "history.csv.journal was damaged and is mended"));
+    CHECK_FALSE(nlohmann::json::parse(ProgramFolder::read(folder.it() / "summary.json")).contains("losses"));
 }
 
 TEST_CASE("a pipe, a folder or a link in place of any file of a run is refused by its name, and nothing waits")

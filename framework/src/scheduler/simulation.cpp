@@ -238,10 +238,8 @@ RunDescription Simulation::describe_run()
     run.provenance = provenance(inputs_, options_.threads);
     run.resumed = resumed_;
     run.resumed_step = at_.step;
-    run.warn = [this](const std::string& text) {
-        log_->warn(text);
-        outputs_.note_loss(text);
-    };
+    run.warn = [this](const std::string& text) { log_->warn(text); };
+    run.note_loss = [this](const std::string& text) { outputs_.note_loss(text); };
     return run;
 }
 

@@ -110,7 +110,7 @@ ResultsParts ResultsParts::resume(const RunDescription& run, int compression,
     results.last_row_ = journal.last_step(RecordKind::row);
     const std::vector<std::string> later = results.look_at_parts(journal, expected);
     for (const std::string& steps : journal.losses())
-        results.missing_.push_back(fmt::format("rows of the history {}", steps));
+        results.add_loss(fmt::format("rows of the history {}", steps));
     if (!results.missing_.empty()) {
         const std::size_t told = std::min(results.missing_.size(), most_losses_told);
         run.warn(fmt::format(
@@ -162,7 +162,8 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
                                                      const std::vector<SnapshotMoment>& expected)
 {
     std::vector<std::string> later;
-    std::map<std::uint64_t, std::string> lost; // by number, in words
+    std::map<std::uint64_t, std::string> lost;    // by number, in the same words at every resume
+    std::map<std::uint64_t, std::string> damaged; // by number, how the part is kept
     for (std::size_t number = 0; number < expected.size(); ++number)
         lost[number] = fmt::format("snapshot {:06} of step {}, time {:.6g} s", number, expected[number].step,
                                    expected[number].time);
@@ -184,12 +185,13 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
         }
         std::optional<StoredSnapshot> stored = read_snapshot_part(parts_ / name);
         if (!stored || !is_the_one_given(*stored, recorded, expected, run_.resumed_step)) {
-            const std::string words = fmt::format("snapshot {:06} of step {}, damaged, kept as {}/{}", number, step,
-                                                  parts_name, set_aside(parts_ / name).filename().string());
-            if (lost.contains(number))
-                lost[number] = words;
-            else // no snapshot of the run: it has this number elsewhere, or never had it
-                run_.warn(words);
+            damaged[number] =
+                fmt::format(", damaged, kept as {}/{}", parts_name, set_aside(parts_ / name).filename().string());
+            if (expected.empty() && !recorded.contains(number) &&
+                (snapshots_.empty() || snapshots_.back().number < number))
+                lost.try_emplace(number, fmt::format("snapshot {:06} of step {}", number, step));
+            if (!lost.contains(number)) // no snapshot of the run: it has this number elsewhere, or never had it
+                run_.warn(fmt::format("{}/{} is no snapshot of this run{}", parts_name, name, damaged[number]));
             continue;
         }
         lost.erase(number);
@@ -208,8 +210,14 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
         provide_vertices(snapshot.points);
     }
     for (const auto& [number, words] : lost)
-        missing_.push_back(words);
+        add_loss(words, damaged[number]);
     return later;
+}
+
+void ResultsParts::add_loss(const std::string& words, const std::string& more)
+{
+    missing_.push_back(words + more);
+    run_.note_loss(words);
 }
 
 void ResultsParts::provide_vertices(std::size_t points)
@@ -266,7 +274,8 @@ void ResultsParts::merge()
             ++s;
             continue;
         }
-        missing_.push_back(fmt::format("snapshot {} of step {}", snapshots_[s].name(), snapshots_[s].step));
+        add_loss(fmt::format("snapshot {} of step {}, time {:.6g} s", snapshots_[s].name(), snapshots_[s].step,
+                             snapshots_[s].time));
         run_.warn(fmt::format("{} was damaged or deleted while the run went on; the results are without it",
                               (parts_ / snapshots_[s].part_name()).string()));
         snapshots_.erase(snapshots_.begin() + static_cast<std::ptrdiff_t>(s));
