@@ -68,11 +68,8 @@ void require_unfinished_run(const fs::path& folder, const CaseDescription& descr
                         !fs::exists(folder / "summary.json") ? "missing"
                         : outcome.empty()                    ? "damaged"
                                                              : fmt::format("of a run that was {}", outcome)));
-    if (outcome == "failed")
-        throw UsageError(fmt::format("the run in {} failed before its first checkpoint, or its checkpoints have been "
-                                     "deleted; --overwrite runs it anew, --out DIR writes elsewhere",
-                                     folder.string()));
-    if (!outcome.empty() || !earlier.holds.empty())
+    // A run that failed before its first checkpoint has not made a step and holds nothing yet.
+    if ((!outcome.empty() && outcome != "failed") || !earlier.holds.empty())
         throw UsageError(fmt::format(
             "{} holds no checkpoint to go on from, but a run was there: {}; bring the checkpoint back, write elsewhere "
             "with --out DIR, or start anew with --overwrite, which deletes these results",

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-const std::string format = "periporo checkpoint 11";
+const std::string format = "periporo checkpoint 12";
 /// The name of checkpoints up to format 7.
 constexpr const char* old_name = "checkpoint.h5";
 constexpr std::size_t longest_case = std::size_t{64} << 20; ///< [bytes]
@@ -75,13 +75,20 @@ void require_same_run(ArchiveReader& archive, const std::string& resolved_case)
 } // namespace
 
 void write_checkpoint(const fs::path& folder, const std::string& resolved_case,
-                      const std::function<void(ArchiveWriter&)>& save)
+                      const std::function<void(ArchiveWriter&)>& save, const std::function<void()>& in_place)
 {
     ArchiveWriter archive(folder / checkpoint_name);
     archive("format", format);
     archive("case", resolved_case);
     save(archive);
-    archive.commit(folder / previous_checkpoint_name);
+    try {
+        archive.commit(folder / previous_checkpoint_name);
+    } catch (...) {
+        if (archive.is_in_place())
+            in_place();
+        throw;
+    }
+    in_place();
 }
 
 bool has_checkpoint(const fs::path& folder)

@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -205,7 +207,17 @@ void Journal::add(RecordKind kind, std::uint64_t step, std::span<const double> v
 
 bool Journal::has_records(const std::filesystem::path& file)
 {
-    return size_of_file(file) > header_size;
+    const std::string text = read_whole(file);
+    std::size_t values = 0;
+    const bool known =
+        std::sscanf(text.c_str(), "periporo journal 1, %zu values", &values) == 1 && values < text.size();
+    if (!known)
+        return text.size() > header_size;
+    const JournalContent content =
+        parse(text, text.substr(0, header_size), values, std::numeric_limits<std::uint64_t>::max());
+    return content.damaged || std::ranges::any_of(content.records, [](const JournalRecord& record) {
+               return record.kind == RecordKind::row || record.kind == RecordKind::snapshot;
+           });
 }
 
 JournalContent Journal::read() const

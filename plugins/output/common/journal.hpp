@@ -68,7 +68,7 @@ public:
     bool is_open() const { return file_.is_open(); }
     /// Everything so far.
     JournalContent read() const;
-    /// Does a file hold more than the head of a journal? @throws FileError
+    /// Does a file hold rows or snapshots, or bytes that may be some? @throws FileError
     static bool has_records(const std::filesystem::path& file);
 
 private:
