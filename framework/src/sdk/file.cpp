@@ -44,6 +44,8 @@ const char* way_out(std::string_view deed, int error)
     case EMFILE:
     case ENFILE:
         return "; allow more open files, as with ulimit -n";
+    case ENOMEM:
+        return "; allow more memory, as with ulimit -v, or make the case smaller";
     case EFBIG:
         return "; allow larger files, as with ulimit -f";
     case ELOOP:
