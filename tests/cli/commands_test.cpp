@@ -5,6 +5,7 @@
 #include "cli/program.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
@@ -50,6 +51,21 @@ TEST_CASE("what the command line does not know is wrong input")
         CHECK(result.status == 2);
         CHECK_FALSE(result.error.empty());
         CHECK(folder.entries() == std::set<std::string>{"case.toml"});
+    }
+}
+
+TEST_CASE("what cannot be written to the standard output is told, and no command is done without it")
+{
+    const CaseFolder folder;
+    for (const char* command : {"check case.toml", "explain case.toml", "inspect", "schema", "--help", "--version"}) {
+        CAPTURE(command);
+        folder.write("full.sh",
+                     fmt::format("'" PERIPORO_PROGRAM "' {} > /dev/full 2> error; echo $? > status", command));
+        std::system(("cd '" + folder.path().string() + "' && sh full.sh").c_str());
+        const std::string error = ProgramFolder::read(folder.path() / "error");
+        CAPTURE(error);
+        CHECK(ProgramFolder::read(folder.path() / "status") == "1\n");
+        CHECK(contains(error, "cannot write to the standard output"));
     }
 }
 

@@ -149,7 +149,7 @@ TEST_CASE("two damaged checkpoints are refused with both names and nothing is to
         write_bytes(folder.path() / name, bytes_of(folder.path() / name).substr(0, 5000));
     const auto before = everything_in(folder.path() / "it");
     const ProgramResult result = folder.run(coarse + "--out it --resume");
-    CHECK(result.status == 1);
+    CHECK(result.status == 2);
     CHECK(contains(result.error, "it/checkpoint.bin is damaged"));
     CHECK(contains(result.error, "it/checkpoint.previous.bin is damaged"));
     CHECK(contains(result.error, "--overwrite"));

@@ -315,6 +315,42 @@ TEST_CASE("what a user may not read is named with the way out, and not taken for
     }
 }
 
+TEST_CASE("a file of the folder that cannot be read or written is found before the first step, with the right way out")
+{
+    struct Right {
+        const char* name;
+        mode_t mode;
+        const char* words;
+    };
+    const std::vector<Right> rights{{"results.parts/journal", 0, "make it readable"},
+                                    {"results.parts/000001-4.h5", 0, "make it readable"},
+                                    {"results.h5", 0, "make it readable"},
+                                    {"history.csv.journal", 0, "make it readable"},
+                                    {"summary.json", 0, "make it readable"},
+                                    {"case.toml", 0, "make it readable"},
+                                    {"history.csv", 0444, "make the file writable"},
+                                    {"history.csv", 0, "make it readable"},
+                                    {"run.log", 0444, "make the file writable"},
+                                    {"run.log", 0, "make the file readable and writable"}};
+    const bool root = ::geteuid() == 0;
+    const std::string as_user = root ? "setpriv --reuid 65534 --regid 65534 --clear-groups" : "";
+    const RunFolder folder;
+    folder.stop_after_ten();
+    if (root) {
+        fs::permissions(folder.path(), fs::perms::all);
+        for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+            REQUIRE(::chown(entry.path().c_str(), 65534, 65534) == 0);
+    }
+    for (const Right& right : rights) {
+        CAPTURE(right.name);
+        REQUIRE(::chmod((folder.it() / right.name).c_str(), right.mode) == 0);
+        RunFolder::check_words(folder.run(twenty_steps + "--resume", as_user),
+                               {right.name, "Permission denied", right.words});
+        ::chmod((folder.it() / right.name).c_str(), 0644);
+    }
+    CHECK(folder.run(twenty_steps + "--resume", as_user).status == 0);
+}
+
 TEST_CASE("few file handles and small files are told with the limit to raise, in plain words")
 {
     const RunFolder folder;

@@ -7,24 +7,26 @@
 #include "cli/exit_status.hpp"
 #include "io/case_difference.hpp"
 #include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
+#include "periporo/file.hpp"
 #include "scheduler/earlier_results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
-
 namespace periporo::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// Content of a file; empty when there is none. @throws FolderError when it cannot be read
 std::string text_of(const fs::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::string text;
+    if (fs::exists(fs::symlink_status(file)))
+        as_fault_of_folder([&] { text = read_whole(file); });
+    return text;
 }
 
 /// How the run in the folder ended, by its summary; empty when it has none.

@@ -4,7 +4,9 @@
 // The mark of a folder that holds a run: the lock of the run in progress, and the names of what runs wrote into it.
 #pragma once
 
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,6 +23,19 @@ class FolderError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
+
+/// Runs `action`, which prepares a folder before the first step: any error but want of memory becomes FolderError.
+template <class Action>
+void as_fault_of_folder(Action&& action)
+{
+    try {
+        action();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw FolderError(error.what());
+    }
+}
 
 /// Holds the lock of a folder, also when somebody deletes the mark. A folder in which nothing was written is left as it
 /// was found.

@@ -5,6 +5,7 @@
 #include "scheduler/run.hpp"
 
 #include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
 #include "periporo/file.hpp"
 #include "scheduler/interruption.hpp"
 #include "scheduler/run_log.hpp"
@@ -41,10 +42,12 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
             options.take_folder(simulation.inputs());
         else
             std::filesystem::create_directories(options.directory);
-        log.open(options.directory / "run.log", options.resume);
-        write_whole(options.directory / "case.toml", description.resolved);
-        if (!checkpoint.refused.empty())
-            set_damaged_checkpoint_aside(options.directory);
+        as_fault_of_folder([&] {
+            log.open(options.directory / "run.log", options.resume);
+            write_whole(options.directory / "case.toml", description.resolved);
+            if (!checkpoint.refused.empty())
+                set_damaged_checkpoint_aside(options.directory);
+        });
         return simulation.run();
     } catch (const std::exception& error) {
         log.add_to_file(error.what());

@@ -147,8 +147,10 @@ RunOutcome Simulation::run()
         return RunOutcome::interrupted;
     }
     last_checkpoint_ = std::chrono::steady_clock::now();
-    note_names(options_.directory, outputs_.files(), !resumed_);
-    outputs_.begin(model_, describe_run());
+    as_fault_of_folder([this] {
+        note_names(options_.directory, outputs_.files(), !resumed_);
+        outputs_.begin(model_, describe_run());
+    });
     writes_ = true;
     try {
         if (!resumed_)
