@@ -57,8 +57,9 @@ bool is_there(const fs::path& file)
     return there;
 }
 
+/// @return differences of the case without influence on the results
 /// @throws ForeignCheckpoint
-void require_same_run(ArchiveReader& archive, const std::string& resolved_case)
+std::vector<std::string> require_same_run(ArchiveReader& archive, const std::string& resolved_case)
 {
     std::string written_format, written_case;
     if (archive.has("format"))
@@ -66,10 +67,11 @@ void require_same_run(ArchiveReader& archive, const std::string& resolved_case)
     if (written_format != format)
         refuse_version(archive.file());
     archive("case", at_most(written_case, longest_case));
-    if (written_case != resolved_case)
+    if (!give_same_results(written_case, resolved_case))
         throw ForeignCheckpoint(fmt::format("{} was written by another case or with other --set values: {}; run the "
                                             "case that it was started with, or start anew with --overwrite",
                                             archive.file().string(), case_difference(written_case, resolved_case)));
+    return differences_without_influence(written_case, resolved_case);
 }
 
 } // namespace
@@ -106,7 +108,7 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, const std::string& resol
         require_readable(folder / name);
         try {
             ArchiveReader archive(folder / name);
-            require_same_run(archive, resolved_case);
+            found.differences = require_same_run(archive, resolved_case);
             found.archive = std::move(archive);
             return found;
         } catch (const ArchiveError& error) {

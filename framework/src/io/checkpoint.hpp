@@ -42,6 +42,7 @@ bool has_checkpoint(const std::filesystem::path& folder);
 struct FoundCheckpoint {
     std::optional<ArchiveReader> archive; ///< none: there is no checkpoint
     std::vector<std::string> refused;     ///< what is wrong with newer ones, with their names
+    std::vector<std::string> differences; ///< of its case, without influence on the results
 };
 
 /// Changes nothing.

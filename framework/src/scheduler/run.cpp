@@ -34,6 +34,8 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
         for (const std::string& refused : checkpoint.refused)
             log.logger()->warn("{}; going on from the older checkpoint, {}", refused,
                                checkpoint.archive->file().string());
+        for (const std::string& difference : checkpoint.differences)
+            log.logger()->info("{}; the run goes on all the same, since its results are the same", difference);
         if (options.resume && !checkpoint.archive)
             log.logger()->warn("{} holds no checkpoint yet; starting from the beginning", options.directory.string());
         Simulation simulation(description, registry, options, interruption, log.logger());
