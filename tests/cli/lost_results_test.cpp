@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ namespace {
 const std::string twenty_steps = "run case.toml --quiet --threads 1 --out it --set 'time.step=0.1 ms' "
                                  "--set 'stage.0.duration=2 ms' --set 'run.history_every=0.1 ms' "
                                  "--set 'output.0.every=0.4 ms' ";
+
+std::set<std::string> names_in_folder(const fs::path& folder)
+{
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.insert(entry.path().filename().string());
+    return names;
+}
 
 class RunFolder : public ProgramFolder {
 public:
@@ -99,6 +108,50 @@ TEST_CASE("a complete run whose summary is damaged, empty or missing is complete
     }
     fs::remove(folder.it() / "summary.json");
     folder.check_refused("--resume", {"already complete", "summary.json is missing"});
+}
+
+TEST_CASE("what a complete run left when it was killed at its very end is deleted by --resume and named")
+{
+    const RunFolder folder;
+    folder.stop_after_ten();
+    fs::copy(folder.it(), folder.path() / "before", fs::copy_options::recursive);
+    REQUIRE(folder.go("--resume").status == 0);
+    const auto complete = folder.content();
+    for (const char* name : {"results.parts", "history.csv.journal", "checkpoint.bin"})
+        fs::copy(folder.path() / "before" / name, folder.it() / name, fs::copy_options::recursive);
+    const ProgramResult result = folder.go("--resume");
+    RunFolder::check_words(result,
+                           {"already complete", "deleted now: checkpoint.bin, history.csv.journal, results.parts"});
+    CHECK(folder.content() == complete);
+    CHECK_FALSE(contains(folder.go("--resume").error, "deleted now"));
+
+    fs::copy(folder.path() / "before/results.parts", folder.it() / "results.parts");
+    folder.write("it/results.parts/notes.txt", "of the user");
+    folder.write("it/results.parts/000001-4.h5.damaged", "kept for the user");
+    RunFolder::check_words(folder.go("--resume"), {"deleted now: results.parts"});
+    CHECK(names_in_folder(folder.it() / "results.parts") == std::set<std::string>{"000001-4.h5.damaged", "notes.txt"});
+}
+
+TEST_CASE("nothing that a complete run left is deleted when its results are gone")
+{
+    const RunFolder folder;
+    folder.stop_after_ten();
+    fs::copy(folder.it() / "results.parts", folder.path() / "before");
+    REQUIRE(folder.go("--resume").status == 0);
+    fs::copy(folder.path() / "before", folder.it() / "results.parts");
+    fs::remove(folder.it() / "results.h5");
+    folder.check_refused("--resume", {"already complete", "results.h5 is gone or damaged"});
+}
+
+TEST_CASE("another title and other times of checkpoints do not refuse a resume, and the title is remarked upon")
+{
+    const RunFolder folder;
+    folder.stop_after_ten();
+    const ProgramResult result = folder.go("--resume --set 'title=another name' --set 'run.checkpoint_every=1 s'");
+    CAPTURE(result.error);
+    CHECK(result.status == 0);
+    CHECK(contains(ProgramFolder::read(folder.it() / "run.log"), "there and \"another name\" here"));
+    CHECK(contains(ProgramFolder::read(folder.it() / "case.toml"), "another name"));
 }
 
 TEST_CASE("a complete run whose results are gone is not called complete without a word")

@@ -38,6 +38,18 @@ std::string outcome_of(const fs::path& folder)
                : std::string();
 }
 
+/// Deletes what a complete run has left. @return words that name it, or nothing
+std::string clean_up(const fs::path& folder)
+{
+    std::vector<std::string> deleted;
+    as_fault_of_folder([&] {
+        const FolderLock lock(folder);
+        deleted = delete_leftovers(folder);
+    });
+    return deleted.empty() ? std::string()
+                           : fmt::format("; left over from it and deleted now: {}", fmt::join(deleted, ", "));
+}
+
 } // namespace
 
 void require_unfinished_run(const fs::path& folder, const CaseDescription& description, const PluginRegistry& registry)
@@ -46,18 +58,20 @@ void require_unfinished_run(const fs::path& folder, const CaseDescription& descr
     const std::string written = text_of(folder / "case.toml"); // none yet when the run was killed in its first moments
     if (outcome == "complete") {
         std::vector<std::string> gone;
-        if (written == description.resolved) // another case may have other writers
+        const bool same = give_same_results(written, description.resolved); // another case may have other writers
+        if (same)
             gone = earlier_results(description, registry, folder).missing;
+        const std::string left = same && gone.empty() ? clean_up(folder) : "";
         throw UsageError(
             fmt::format("the run in {} is already complete, {}; --overwrite runs it anew, --out DIR writes "
                         "elsewhere",
                         folder.string(),
-                        gone.empty() ? "there is nothing to resume"
+                        gone.empty() ? "there is nothing to resume" + left
                                      : fmt::format("but {} is gone or damaged", fmt::join(gone, ", "))));
     }
     if (has_checkpoint(folder))
         return;
-    if (!written.empty() && written != description.resolved)
+    if (!written.empty() && !give_same_results(written, description.resolved))
         throw UsageError(fmt::format("{} holds the run of another case or with other --set values: {}; run the case "
                                      "that it was started with, or start anew with --overwrite",
                                      folder.string(), case_difference(written, description.resolved)));

@@ -383,6 +383,36 @@ void delete_run(const fs::path& folder, const std::vector<std::string>& of_write
     }
 }
 
+std::vector<std::string> delete_leftovers(const fs::path& folder)
+{
+    const auto is_left = [](const std::string& name) {
+        const std::string whole = without_additions(name);
+        return name.find(".damaged") == std::string::npos &&
+               (whole == checkpoint_name || whole == previous_checkpoint_name || whole == "history.csv.journal" ||
+                name == parts_folder);
+    };
+    std::vector<std::string> deleted;
+    for (const std::string& name : entries_of(folder)) {
+        const fs::path entry = folder / name;
+        const bool is_folder = fs::is_directory(fs::symlink_status(entry));
+        if (!is_left(name) || is_folder != (name == parts_folder))
+            continue;
+        bool some = !is_folder;
+        if (!is_folder)
+            remove_file(entry);
+        else
+            for (const std::string& part : entries_of(entry))
+                if (is_part_of_results(part) && part.find(".damaged") == std::string::npos) {
+                    remove_file(entry / part);
+                    some = true;
+                }
+        some = (is_folder && ::rmdir(entry.c_str()) == 0) || some;
+        if (some)
+            deleted.push_back(name);
+    }
+    return deleted;
+}
+
 void note_names(const fs::path& folder, const std::vector<std::string>& names, bool fresh)
 {
     const std::set<std::string> noted = noted_names(folder);
