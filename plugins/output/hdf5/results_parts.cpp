@@ -190,8 +190,6 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
             if (expected.empty() && !recorded.contains(number) &&
                 (snapshots_.empty() || snapshots_.back().number < number))
                 lost.try_emplace(number, fmt::format("snapshot {:06} of step {}", number, step));
-            if (!lost.contains(number)) // no snapshot of the run: it has this number elsewhere, or never had it
-                run_.warn(fmt::format("{}/{} is no snapshot of this run{}", parts_name, name, damaged[number]));
             continue;
         }
         lost.erase(number);
@@ -209,6 +207,9 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
         next = snapshot.number + 1;
         provide_vertices(snapshot.points);
     }
+    for (const auto& [number, words] : damaged)
+        if (!lost.contains(number)) // the run has this number elsewhere, or never had it
+            run_.warn(fmt::format("a part of {} is no snapshot of this run{}", parts_.string(), words));
     for (const auto& [number, words] : lost)
         add_loss(words, damaged[number]);
     return later;

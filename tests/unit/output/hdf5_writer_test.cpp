@@ -385,8 +385,10 @@ TEST_CASE("a sound part under the name of another snapshot is set aside, named, 
     };
     const std::vector<Copy> copies{
         {"000001-10.h5", "000003-30.h5", "lost: snapshot 000003 of step 30, time 2.3 s, damaged, kept as"},
-        {"000001-10.h5", "000002-10.h5", "000002-10.h5 is no snapshot of this run, damaged, kept as"},
-        {"000001-10.h5", "000007-10.h5", "000007-10.h5 is no snapshot of this run, damaged, kept as"}};
+        {"000001-10.h5", "000002-10.h5",
+         "is no snapshot of this run, damaged, kept as results.parts/000002-10.h5.damaged"},
+        {"000001-10.h5", "000007-10.h5",
+         "is no snapshot of this run, damaged, kept as results.parts/000007-10.h5.damaged"}};
     for (const Copy& copy : copies) {
         CAPTURE(copy.to);
         const TemporaryFolder folder;
