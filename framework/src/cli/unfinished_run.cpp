@@ -5,6 +5,7 @@
 #include "cli/unfinished_run.hpp"
 
 #include "cli/exit_status.hpp"
+#include "cli/result_folder.hpp"
 #include "io/case_difference.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
@@ -41,13 +42,14 @@ std::string outcome_of(const fs::path& folder)
 /// Deletes what a complete run has left. @return words that name it, or nothing
 std::string clean_up(const fs::path& folder)
 {
-    std::vector<std::string> deleted;
+    const std::vector<std::string> left = leftovers(folder);
+    if (left.empty())
+        return {};
     as_fault_of_folder([&] {
         const FolderLock lock(folder);
-        deleted = delete_leftovers(folder);
+        delete_leftovers(folder);
     });
-    return deleted.empty() ? std::string()
-                           : fmt::format("; left over from it and deleted now: {}", fmt::join(deleted, ", "));
+    return fmt::format("; left over from it and deleted now: {}", list_of(left));
 }
 
 } // namespace

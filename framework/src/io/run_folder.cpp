@@ -117,7 +117,7 @@ std::vector<std::string> entries_of(const fs::path& folder)
     try {
         return names_in(folder);
     } catch (const FileError& error) {
-        if (error.error() == ENOENT)
+        if (error.error() == ENOENT || error.error() == ENOTDIR) // a file is in its place, or above it
             return {};
         throw FolderError(error.what());
     }
@@ -126,6 +126,11 @@ std::vector<std::string> entries_of(const fs::path& folder)
 bool is_number(std::string_view text)
 {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_damaged(const std::string& name)
+{
+    return name.find(".damaged") != std::string::npos;
 }
 
 /// Does a run give this name to a file in results.parts: "000012-2400.h5", "vertices-1200.h5", "journal"?
@@ -383,34 +388,33 @@ void delete_run(const fs::path& folder, const std::vector<std::string>& of_write
     }
 }
 
-std::vector<std::string> delete_leftovers(const fs::path& folder)
+std::vector<std::string> leftovers(const fs::path& folder)
 {
-    const auto is_left = [](const std::string& name) {
-        const std::string whole = without_additions(name);
-        return name.find(".damaged") == std::string::npos &&
-               (whole == checkpoint_name || whole == previous_checkpoint_name || whole == "history.csv.journal" ||
-                name == parts_folder);
-    };
-    std::vector<std::string> deleted;
+    std::vector<std::string> left;
     for (const std::string& name : entries_of(folder)) {
-        const fs::path entry = folder / name;
-        const bool is_folder = fs::is_directory(fs::symlink_status(entry));
-        if (!is_left(name) || is_folder != (name == parts_folder))
+        const bool is_folder = fs::is_directory(fs::symlink_status(folder / name));
+        const std::string whole = is_damaged(name) ? "" : without_additions(name);
+        if (!is_folder &&
+            (whole == checkpoint_name || whole == previous_checkpoint_name || whole == "history.csv.journal"))
+            left.push_back(name);
+        if (!is_folder || name != parts_folder)
             continue;
-        bool some = !is_folder;
-        if (!is_folder)
-            remove_file(entry);
-        else
-            for (const std::string& part : entries_of(entry))
-                if (is_part_of_results(part) && part.find(".damaged") == std::string::npos) {
-                    remove_file(entry / part);
-                    some = true;
-                }
-        some = (is_folder && ::rmdir(entry.c_str()) == 0) || some;
-        if (some)
-            deleted.push_back(name);
+        const std::vector<std::string> parts = entries_of(folder / name);
+        for (const std::string& part : parts)
+            if (is_part_of_results(part) && !is_damaged(part))
+                left.push_back(name + '/' + part);
+        if (parts.empty())
+            left.push_back(name);
     }
-    return deleted;
+    return left;
+}
+
+void delete_leftovers(const fs::path& folder)
+{
+    for (const std::string& name : leftovers(folder))
+        if (name != parts_folder)
+            remove_file(folder / name);
+    ::rmdir((folder / parts_folder).c_str()); // files of somebody else keep it
 }
 
 void note_names(const fs::path& folder, const std::vector<std::string>& names, bool fresh)

@@ -87,10 +87,10 @@ void require_sound_entries(const std::filesystem::path& folder, const std::vecto
 /// @param of_writers as for names_of_run(); their folders are deleted whole
 void delete_run(const std::filesystem::path& folder, const std::vector<std::string>& of_writers);
 
-/// Deletes what a complete run has left that only a resumed one would need: a kill may end it before it does so itself.
-/// Damaged files stay, as do those of somebody else.
-/// @return names of the files and folders
-std::vector<std::string> delete_leftovers(const std::filesystem::path& folder);
+/// What a complete run has left that only a resumed one would need, by name: a kill may end it before it deletes this
+/// itself. Damaged files are not among it, nor those of somebody else.
+std::vector<std::string> leftovers(const std::filesystem::path& folder);
+void delete_leftovers(const std::filesystem::path& folder);
 
 /// Notes the names that the writers of a run make in its folder, before they make them.
 /// @param fresh the run does not go on with an earlier one
