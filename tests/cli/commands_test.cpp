@@ -5,6 +5,7 @@
 #include "cli/program.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
@@ -50,6 +51,65 @@ TEST_CASE("what the command line does not know is wrong input")
         CHECK(result.status == 2);
         CHECK_FALSE(result.error.empty());
         CHECK(folder.entries() == std::set<std::string>{"case.toml"});
+    }
+}
+
+TEST_CASE("a place that cannot be written is told before anything is computed, with the way out, and nothing is left")
+{
+    struct Place {
+        const char* arguments;
+        const char* words;
+    };
+    for (const Place& place : std::vector<Place>{
+             {"run case.toml --out /proc/none", "cannot make the folder /proc/none: No such file or directory; choose"},
+             {"run case.toml --out /proc/none/deep", "cannot make the folder"},
+             {"run case.toml --out case.toml/out", "cannot make the folder case.toml/out: Not a directory; choose"},
+             {"run case.toml --out ''", "the name is empty"},
+             {"run case.toml --out=", "--out"},
+             {"drive path.toml --out ''", "the name is empty"},
+             {"new material mine --out ''", "the name is empty"},
+             {"explain case.toml --picture /nonexistent/a.svg", "there is no folder /nonexistent; make it or choose"},
+             {"explain case.toml --picture /proc/a.svg", "cannot write /proc/a.svg"},
+             {"explain case.toml --picture folder.svg", "it is a folder"},
+             {"run case.toml --plugin-path /nope", "there is no folder \"/nope\""},
+             {"inspect --plugin-path /nope", "there is no folder \"/nope\""},
+             {"check case.toml --plugin-path case.toml", "there is no folder \"case.toml\""},
+             {"schema --plugin-path ''", "there is no folder"}}) {
+        CAPTURE(place.arguments);
+        const CaseFolder folder;
+        std::filesystem::create_directory(folder.path() / "folder.svg");
+        const ProgramResult result = folder.run(place.arguments);
+        CAPTURE(result.error);
+        CHECK(result.status == 2);
+        CHECK(contains(result.error, place.words));
+        CHECK_FALSE(contains(result.error, "points"));
+        CHECK_FALSE(contains(result.error, "taken the folder away"));
+        CHECK(result.out.empty());
+        CHECK(folder.entries() == std::set<std::string>{"case.toml", "folder.svg"});
+    }
+}
+
+TEST_CASE("folders that are missing are made for a run, and a try leaves none of them when the case is refused")
+{
+    const CaseFolder folder;
+    CHECK(folder.run("run case.toml --quiet --out a/b/c").status == 0);
+    CHECK(std::filesystem::exists(folder.path() / "a/b/c/results.h5"));
+    CHECK(folder.run("run case.toml --quiet --out d/e/ --set 'time.step=1 s'").status == 2);
+    CHECK(folder.entries() == std::set<std::string>{"a", "case.toml"});
+}
+
+TEST_CASE("what cannot be written to the standard output is told, and no command is done without it")
+{
+    const CaseFolder folder;
+    for (const char* command : {"check case.toml", "explain case.toml", "inspect", "schema", "--help", "--version"}) {
+        CAPTURE(command);
+        folder.write("full.sh",
+                     fmt::format("'" PERIPORO_PROGRAM "' {} > /dev/full 2> error; echo $? > status", command));
+        std::system(("cd '" + folder.path().string() + "' && sh full.sh").c_str());
+        const std::string error = ProgramFolder::read(folder.path() / "error");
+        CAPTURE(error);
+        CHECK(ProgramFolder::read(folder.path() / "status") == "1\n");
+        CHECK(contains(error, "cannot write to the standard output"));
     }
 }
 

@@ -94,15 +94,29 @@ TEST_CASE("--resume touches no folder that holds no run")
     CHECK(everything_in(folder.path() / "mine") == before);
 }
 
-TEST_CASE("--resume does not compute anew a run that failed before its first checkpoint")
+TEST_CASE("a run that failed is resumed from its first checkpoint and fails with the same words and results")
 {
     const ProgramFolder folder;
     const std::string fails = coarse + "--set 'run.energy_error_limit=1e-9' --out it ";
     REQUIRE(folder.run(fails).status == 1);
+    std::filesystem::copy(folder.path() / "it", folder.path() / "first", std::filesystem::copy_options::recursive);
+    const ProgramResult result = folder.run(fails + "--resume");
+    CHECK(result.status == 1);
+    CHECK(contains(result.error, "last snapshot"));
+    CHECK(differences_of(folder.path() / "first", folder.path() / "it") == std::set<std::string>{});
+}
+
+TEST_CASE("--resume does not compute anew a run that failed and whose checkpoints are gone")
+{
+    const ProgramFolder folder;
+    const std::string fails = coarse + "--set 'run.energy_error_limit=1e-9' --out it ";
+    REQUIRE(folder.run(fails).status == 1);
+    for (const char* name : {"it/checkpoint.bin", "it/checkpoint.previous.bin"})
+        std::filesystem::remove(folder.path() / name);
     const auto before = everything_in(folder.path() / "it");
     const ProgramResult result = folder.run(fails + "--resume");
     CHECK(result.status == 2);
-    CHECK(contains(result.error, "failed before its first checkpoint"));
+    CHECK(contains(result.error, "no checkpoint to go on from"));
     CHECK(everything_in(folder.path() / "it") == before);
 }
 
@@ -135,7 +149,7 @@ TEST_CASE("two damaged checkpoints are refused with both names and nothing is to
         write_bytes(folder.path() / name, bytes_of(folder.path() / name).substr(0, 5000));
     const auto before = everything_in(folder.path() / "it");
     const ProgramResult result = folder.run(coarse + "--out it --resume");
-    CHECK(result.status == 1);
+    CHECK(result.status == 2);
     CHECK(contains(result.error, "it/checkpoint.bin is damaged"));
     CHECK(contains(result.error, "it/checkpoint.previous.bin is damaged"));
     CHECK(contains(result.error, "--overwrite"));

@@ -12,7 +12,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 using namespace periporo::test;
 
@@ -24,6 +28,14 @@ namespace {
 const std::string twenty_steps = "run case.toml --quiet --threads 1 --out it --set 'time.step=0.1 ms' "
                                  "--set 'stage.0.duration=2 ms' --set 'run.history_every=0.1 ms' "
                                  "--set 'output.0.every=0.4 ms' ";
+
+std::set<std::string> names_in_folder(const fs::path& folder)
+{
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.insert(entry.path().filename().string());
+    return names;
+}
 
 class RunFolder : public ProgramFolder {
 public:
@@ -73,7 +85,8 @@ TEST_CASE("--resume of a run whose checkpoints were deleted is refused, names wh
 {
     const RunFolder folder;
     folder.stop_after_ten();
-    fs::remove(folder.it() / "checkpoint.bin");
+    for (const char* name : {"checkpoint.bin", "checkpoint.previous.bin"})
+        fs::remove(folder.it() / name);
     const std::vector<std::string> words{"no checkpoint", "3 snapshots in results.parts", "11 rows in history.csv",
                                          "--out DIR", "--overwrite"};
     folder.check_refused("--resume", words);
@@ -96,6 +109,53 @@ TEST_CASE("a complete run whose summary is damaged, empty or missing is complete
     }
     fs::remove(folder.it() / "summary.json");
     folder.check_refused("--resume", {"already complete", "summary.json is missing"});
+}
+
+TEST_CASE("what a complete run left when it was killed at its very end is deleted by --resume and named")
+{
+    const RunFolder folder;
+    folder.stop_after_ten();
+    fs::copy(folder.it(), folder.path() / "before", fs::copy_options::recursive);
+    REQUIRE(folder.go("--resume").status == 0);
+    auto complete = folder.content();
+    for (const char* name : {"results.parts", "history.csv.journal", "checkpoint.bin"})
+        fs::copy(folder.path() / "before" / name, folder.it() / name, fs::copy_options::recursive);
+    const ProgramResult result = folder.go("--resume");
+    RunFolder::check_words(
+        result, {"already complete", "deleted now: checkpoint.bin, history.csv.journal, results.parts/000000-0.h5"});
+    auto left = folder.content();
+    for (auto* content : {&complete, &left})
+        content->erase("periporo.run"); // which has the number of the last process
+    CHECK(left == complete);
+    CHECK_FALSE(contains(folder.go("--resume").error, "deleted now"));
+
+    fs::copy(folder.path() / "before/results.parts", folder.it() / "results.parts");
+    folder.write("it/results.parts/notes.txt", "of the user");
+    folder.write("it/results.parts/000001-4.h5.damaged", "kept for the user");
+    RunFolder::check_words(folder.go("--resume"), {"deleted now: results.parts/000000-0.h5"});
+    CHECK(names_in_folder(folder.it() / "results.parts") == std::set<std::string>{"000001-4.h5.damaged", "notes.txt"});
+}
+
+TEST_CASE("nothing that a complete run left is deleted when its results are gone")
+{
+    const RunFolder folder;
+    folder.stop_after_ten();
+    fs::copy(folder.it() / "results.parts", folder.path() / "before");
+    REQUIRE(folder.go("--resume").status == 0);
+    fs::copy(folder.path() / "before", folder.it() / "results.parts");
+    fs::remove(folder.it() / "results.h5");
+    folder.check_refused("--resume", {"already complete", "results.h5 is gone or damaged"});
+}
+
+TEST_CASE("another title and other times of checkpoints do not refuse a resume, and the title is remarked upon")
+{
+    const RunFolder folder;
+    folder.stop_after_ten();
+    const ProgramResult result = folder.go("--resume --set 'title=another name' --set 'run.checkpoint_every=1 s'");
+    CAPTURE(result.error);
+    CHECK(result.status == 0);
+    CHECK(contains(ProgramFolder::read(folder.it() / "run.log"), "there and \"another name\" here"));
+    CHECK(contains(ProgramFolder::read(folder.it() / "case.toml"), "another name"));
 }
 
 TEST_CASE("a complete run whose results are gone is not called complete without a word")
@@ -140,6 +200,39 @@ TEST_CASE("--without-lost-results goes on with the true numbers and a lasting ma
     CHECK(contains(summary.at("losses").dump(), "snapshot 000002 of step 8, time 0.0008 s"));
     CHECK(contains(ProgramFolder::read(folder.it() / "run.log"), "complete, but parts of the results are lost"));
     CHECK(contains(ProgramFolder::read(folder.it() / "results.h5"), "snapshot 000002 of step 8")); // its "missing"
+}
+
+TEST_CASE("the losses in the summary are one entry for each loss, also when the terminal names a part of them")
+{
+    const RunFolder folder;
+    REQUIRE(folder.go("--stop-after 17 --set 'output.0.every=0.2 ms'").status == 130); // nine snapshots
+    for (int number = 0; number < 8; ++number)
+        folder.write(fmt::format("it/results.parts/{:06}-{}.h5", number, 2 * number), "damaged");
+    const ProgramResult result = folder.go("--resume --set 'output.0.every=0.2 ms' --stop-after 18");
+    CAPTURE(result.error);
+    REQUIRE(result.status == 130);
+    CHECK(contains(result.error, "and 2 more"));
+    REQUIRE(folder.go("--resume --set 'output.0.every=0.2 ms'").status == 0); // which finds the same losses
+    const auto losses = nlohmann::json::parse(ProgramFolder::read(folder.it() / "summary.json"))
+                            .at("losses")
+                            .get<std::vector<std::string>>();
+    CHECK(losses.size() == 8);
+    for (int number = 0; number < 8; ++number)
+        CHECK(std::ranges::any_of(losses, [&](const std::string& loss) {
+            return loss.starts_with(fmt::format("snapshot {:06} of step {}", number, 2 * number));
+        }));
+}
+
+TEST_CASE("what is damaged and mended without a loss is no loss in the summary")
+{
+    const RunFolder folder;
+    folder.stop_after_ten();
+    const std::string bytes = ProgramFolder::read(folder.it() / "history.csv.journal");
+    folder.write("it/history.csv.journal", bytes.substr(0, 64) + "put in" + bytes.substr(64));
+    const ProgramResult result = folder.go("--resume");
+    REQUIRE(result.status == 0);
+    CHECK(contains(result.error, "history.csv.journal was damaged and is mended"));
+    CHECK_FALSE(nlohmann::json::parse(ProgramFolder::read(folder.it() / "summary.json")).contains("losses"));
 }
 
 TEST_CASE("a pipe, a folder or a link in place of any file of a run is refused by its name, and nothing waits")
@@ -279,6 +372,59 @@ TEST_CASE("what a user may not read is named with the way out, and not taken for
     }
 }
 
+TEST_CASE("a file of the folder that cannot be read or written is found before the first step, with the right way out")
+{
+    struct Right {
+        const char* name;
+        mode_t mode;
+        const char* words;
+    };
+    const std::vector<Right> rights{{"results.parts/journal", 0, "make it readable"},
+                                    {"results.parts/000001-4.h5", 0, "make it readable"},
+                                    {"results.h5", 0, "make it readable"},
+                                    {"history.csv.journal", 0, "make it readable"},
+                                    {"summary.json", 0, "make it readable"},
+                                    {"case.toml", 0, "make it readable"},
+                                    {"history.csv", 0444, "make the file writable"},
+                                    {"history.csv", 0, "make it readable"},
+                                    {"run.log", 0444, "make the file writable"},
+                                    {"run.log", 0, "make the file readable and writable"}};
+    const bool root = ::geteuid() == 0;
+    const std::string as_user = root ? "setpriv --reuid 65534 --regid 65534 --clear-groups" : "";
+    const RunFolder folder;
+    folder.stop_after_ten();
+    if (root) {
+        fs::permissions(folder.path(), fs::perms::all);
+        for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+            REQUIRE(::chown(entry.path().c_str(), 65534, 65534) == 0);
+    }
+    for (const Right& right : rights) {
+        CAPTURE(right.name);
+        REQUIRE(::chmod((folder.it() / right.name).c_str(), right.mode) == 0);
+        RunFolder::check_words(folder.run(twenty_steps + "--resume", as_user),
+                               {right.name, "Permission denied", right.words});
+        ::chmod((folder.it() / right.name).c_str(), 0644);
+    }
+    CHECK(folder.run(twenty_steps + "--resume", as_user).status == 0);
+}
+
+TEST_CASE("want of memory is told in plain words with the way out, wherever it is found")
+{
+    const RunFolder folder;
+    std::size_t told = 0;
+    ProgramResult result;
+    for (int mebibytes = 20; result.status != 0 && mebibytes < 2000; ++mebibytes) { // of addresses, libraries included
+        fs::remove_all(folder.it());
+        result = folder.run(twenty_steps, fmt::format("OMP_NUM_THREADS=1 prlimit --as={}", mebibytes << 20));
+        CAPTURE(mebibytes);
+        CAPTURE(result.error);
+        CHECK_FALSE(contains(result.error, "HDF5: "));
+        told += contains(result.error, "Cannot allocate memory; allow more memory, as with ulimit -v") ? 1 : 0;
+    }
+    CHECK(result.status == 0);
+    CHECK(told > 0);
+}
+
 TEST_CASE("few file handles and small files are told with the limit to raise, in plain words")
 {
     const RunFolder folder;
@@ -290,6 +436,12 @@ TEST_CASE("few file handles and small files are told with the limit to raise, in
         if (result.status == 0)
             continue;
         CHECK(contains(result.error, "ulimit -n"));
+        const bool can_go_on = fs::exists(folder.it() / "checkpoint.bin");
+        CHECK_FALSE((can_go_on && contains(result.error, "no checkpoint")));
+        if (can_go_on) {
+            CHECK(contains(result.error, "--resume goes on from the checkpoint of step "));
+            CHECK(folder.go("--resume").status == 0);
+        }
         CHECK_FALSE(contains(result.error, "HDF5"));
         CHECK_FALSE(contains(result.error, "Failed opening"));
     }

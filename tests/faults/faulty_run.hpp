@@ -18,9 +18,9 @@
 
 namespace periporo::test {
 
-/// Some twenty steps with both writers, a checkpoint after each step.
+/// Some twenty steps with both writers.
 inline const std::string run_of_twenty_steps =
-    "run case.toml --quiet --threads 1 --set 'run.checkpoint_every=0 s' --set 'time.step=0.1 ms' "
+    "run case.toml --quiet --threads 1 --set 'time.step=0.1 ms' "
     "--set 'stage.0.duration=2 ms' --set 'run.history_every=0.1 ms' --set 'output.0.every=0.4 ms' ";
 
 /// Lets temporary folders lie in memory where the system has such a place: bringing files to a disk takes its time.
@@ -38,12 +38,10 @@ public:
 
     std::filesystem::path out() const { return folder_.path() / "out"; }
     std::string below; ///< beginning of the names in the folder that the fault is for, "/results"; all when empty
+    std::string checkpoint_every = "0 s"; ///< after each step
 
     /// The run without a fault, or what is left of it.
-    ProgramResult run(const std::string& more) const
-    {
-        return folder_.run(run_of_twenty_steps + more + " --out '" + out().string() + "'");
-    }
+    ProgramResult run(const std::string& more) const { return folder_.run(arguments(more)); }
     /// @param kind, at as in fault_at_call.c
     ProgramResult run_with_fault(const std::string& kind, long at, const std::string& more = "", int error = 0) const
     {
@@ -52,8 +50,7 @@ public:
         ::setenv("FAULT_AT", std::to_string(at).c_str(), 1);
         ::setenv("FAULT_ERROR", std::to_string(error).c_str(), 1);
         ::setenv("FAULT_COUNT", (folder_.path() / "calls").c_str(), 1);
-        const ProgramResult result = folder_.run(run_of_twenty_steps + more + " --out '" + out().string() + "'",
-                                                 "LD_PRELOAD='" PERIPORO_FAULT_LIBRARY "'");
+        const ProgramResult result = folder_.run(arguments(more), "LD_PRELOAD='" PERIPORO_FAULT_LIBRARY "'");
         for (const char* name : {"FAULT_FOLDER", "FAULT_KIND", "FAULT_AT", "FAULT_ERROR", "FAULT_COUNT"})
             ::unsetenv(name);
         return result;
@@ -83,6 +80,12 @@ public:
     }
 
 private:
+    std::string arguments(const std::string& more) const
+    {
+        return fmt::format("{} --set 'run.checkpoint_every={}' {} --out '{}'", run_of_twenty_steps, checkpoint_every,
+                           more, out().string());
+    }
+
     ProgramFolder folder_;
 };
 

@@ -62,6 +62,58 @@ TEST_CASE("a process without file handles says so, and its run can be resumed")
     check_fault(EMFILE, "/results", 6);
 }
 
+TEST_CASE(
+    "a disk that is full before the first checkpoint by the clock costs no more than the stage: --resume ends the run")
+{
+    for (const char* below : {"/results", "/history.csv", "/checkpoint", "/summary"}) {
+        CAPTURE(below);
+        FaultyRun whole;
+        whole.below = below;
+        whole.checkpoint_every = "60 s";
+        REQUIRE(whole.run_with_fault("none", 0).status == 0);
+        const auto expected = whole.results();
+        for (long call = 1; call <= whole.calls(); call += every_call() ? 1 : 1 + whole.calls() / 10) {
+            CAPTURE(call);
+            FaultyRun full;
+            full.below = below;
+            full.checkpoint_every = "60 s";
+            const ProgramResult failed = full.run_with_fault("fail", call, "", ENOSPC);
+            INFO(failed.error);
+            if (failed.status == 0)
+                continue;
+            const ProgramResult rest = full.run("--resume");
+            INFO(rest.error);
+            REQUIRE(rest.status == 0);
+            check_same_results(full.results(), expected);
+        }
+    }
+}
+
+TEST_CASE("a run whose results have no room to be merged has all of its steps in its checkpoint")
+{
+    FaultyRun whole;
+    whole.below = "/results.h5";
+    whole.checkpoint_every = "60 s";
+    REQUIRE(whole.run_with_fault("none", 0).status == 0);
+    FaultyRun full;
+    full.below = whole.below;
+    full.checkpoint_every = whole.checkpoint_every;
+    ProgramResult failed;
+    for (long call = whole.calls(); failed.status != 1 && call > 0; --call) { // the last call that needs room
+        if (std::filesystem::exists(full.out()))
+            std::filesystem::remove_all(full.out());
+        failed = full.run_with_fault("fail", call, "", ENOSPC);
+    }
+    CAPTURE(failed.error);
+    CHECK(failed.error.find("step 20") != std::string::npos);
+    CHECK(failed.error.find("No space left on device; make room there") != std::string::npos);
+    CHECK(failed.error.find("--resume goes on from the checkpoint of step 20") != std::string::npos);
+    REQUIRE(full.run("--resume").status == 0);
+    CHECK(ProgramFolder::read(full.out() / "run.log").find("resumed behind stage 'fall' at step 20") !=
+          std::string::npos);
+    check_same_results(full.results(), whole.results());
+}
+
 TEST_CASE("a failed write names the file, the step and the way on")
 {
     FaultyRun whole;

@@ -55,6 +55,9 @@ struct RunDescription {
     std::uint64_t resumed_step = 0;
     /// Says something aloud, on the terminal and in the log, that is no error: earlier output that is damaged, say.
     std::function<void(const std::string&)> warn = [](const std::string&) {};
+    /// Notes one thing that is lost for good, as in "snapshot 000012 of step 2400", for summary.json. A loss that was
+    /// noted already is noted once.
+    std::function<void(const std::string&)> note_loss = [](const std::string&) {};
 };
 
 /// Called by the scheduler in this order: begin, then any mix of snapshot, history and flush, then finish, and clean_up
@@ -64,7 +67,8 @@ struct RunDescription {
 /// Errors are exceptions derived from std::exception with the path and the system's reason in their message; FileError
 /// of file.hpp has both. A writer that threw is not called again. A run may be killed between any two calls of the
 /// system: a checkpoint resumes whatever state the output is in, so a writer that is resumed drops what is later than
-/// the checkpoint, keeps what is sound, renames what is damaged and names it by RunDescription::warn.
+/// the checkpoint, keeps what is sound, renames what is damaged and names it by RunDescription::warn, and notes what is
+/// lost by RunDescription::note_loss.
 class OutputWriter {
 public:
     virtual ~OutputWriter() = default;

@@ -31,7 +31,7 @@ const char* kind_name(PluginKind kind);
 /// First four bytes of every descriptor, "ppor".
 inline constexpr std::uint32_t plugin_magic = 0x70706f72;
 /// Raised whenever an interface of the SDK changes its meaning or layout.
-inline constexpr std::uint32_t plugin_api_version = 7;
+inline constexpr std::uint32_t plugin_api_version = 8;
 /// The one symbol a plugin exports.
 inline constexpr const char* plugin_symbol = "periporo_plugin";
 

@@ -26,10 +26,19 @@ CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vec
     return command.add_option(name, values, documentation)->type_size(1)->allow_extra_args(false)->take_all();
 }
 
+std::string objection_to_plugin_folder(const std::string& text)
+{
+    std::error_code error;
+    if (std::filesystem::is_directory(text, error))
+        return {};
+    return fmt::format("there is no folder \"{}\"", text);
+}
+
 /// Adds --plugin-path.
 void add_plugin_path(CLI::App& command, std::vector<std::filesystem::path>& folders)
 {
     add_repeatable(command, "--plugin-path", folders, "Folder of plugin libraries, searched first; may be repeated")
+        ->check(CLI::Validator(objection_to_plugin_folder, "", "plugins"))
         ->type_name("DIR");
 }
 
@@ -43,6 +52,19 @@ void add_case_arguments(CLI::App& command, CaseArguments& arguments)
         "or by number from 0, contact.0.friction")
         ->type_name("KEY=VALUE");
     add_plugin_path(command, arguments.options.command_line_plugins);
+}
+
+std::string objection_to_folder(const std::string& text)
+{
+    return text.empty() ? "the name is empty; leave the option out for the default folder" : "";
+}
+
+/// Adds --out DIR.
+void add_out(CLI::App& command, std::filesystem::path& folder, const std::string& documentation)
+{
+    command.add_option("--out", folder, documentation)
+        ->check(CLI::Validator(objection_to_folder, "", "folder"))
+        ->type_name("DIR");
 }
 
 std::string objection_to_threads(const std::string& text)
@@ -85,9 +107,7 @@ void add_run(CLI::App& program, Action& action)
     CLI::App* command = program.add_subcommand("run", "Run a case and write its results");
     const auto arguments = std::make_shared<RunArguments>();
     add_case_arguments(*command, arguments->the_case);
-    command
-        ->add_option("--out", arguments->options.directory, "Folder for the results (default: results/<name of CASE>)")
-        ->type_name("DIR");
+    add_out(*command, arguments->options.directory, "Folder for the results (default: results/<name of CASE>)");
     add_threads(*command, arguments->options.threads);
     CLI::Option* resume =
         command->add_flag("--resume", arguments->options.resume, "Go on with the interrupted run in the folder");
@@ -174,8 +194,7 @@ void add_drive(CLI::App& program, Action& action)
     const auto arguments = std::make_shared<DriveArguments>();
     add_case_arguments(*command, arguments->path);
     command->get_option("CASE")->description("The file of the path: material, start and stages of one point");
-    command->add_option("--out", arguments->folder, "Folder for the results (default: results/<name of CASE>)")
-        ->type_name("DIR");
+    add_out(*command, arguments->folder, "Folder for the results (default: results/<name of CASE>)");
     command->footer(
         "Example:\n"
         "  periporo drive cases/material/triaxial_drained.toml --set material.silt.critical_state_slope=1.3\n\n"
@@ -212,7 +231,7 @@ void add_new(CLI::App& program, Action& action)
     command->add_option("NAME", arguments->name, "Name of the plugin in case files, as in my_clay")
         ->required()
         ->type_name("");
-    command->add_option("--out", arguments->folder, "Folder to make; ./NAME when left out")->type_name("DIR");
+    add_out(*command, arguments->folder, "Folder to make; ./NAME when left out");
     add_plugin_path(*command, arguments->plugin_folders);
     command->footer("Example:\n  periporo new material my_clay");
     set_action(*command, action, arguments, write_new_plugin);

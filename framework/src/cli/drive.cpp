@@ -3,6 +3,7 @@
 //
 // `periporo drive CASE`: a material alone along a path.
 #include "cli/commands.hpp"
+#include "cli/places.hpp"
 #include "cli/result_folder.hpp"
 #include "drive/path_reader.hpp"
 #include "drive/path_results.hpp"
@@ -39,6 +40,7 @@ ExitStatus drive(DriveArguments arguments)
     if (arguments.folder.empty())
         arguments.folder = default_result_folder(arguments.path.file);
     check_folder(arguments.folder, arguments.path.file);
+    require_possible_folder(arguments.folder);
 
     const std::unique_ptr<Material> material = registry.make_material(path.model.name, path.model.parameters);
     const std::unique_ptr<Retention> curve =

@@ -5,16 +5,21 @@
 #include "cli/exit_status.hpp"
 
 #include "case/reader.hpp"
+#include "io/archive.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
 #include "plugins/registry.hpp"
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 
 namespace periporo::cli {
 namespace {
@@ -33,6 +38,17 @@ ExitStatus complain(ExitStatus status, const char* message)
 
 } // namespace
 
+ExitStatus report_unwritten_output(ExitStatus status)
+{
+    std::cout.flush();
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good())
+        return status;
+    tell(fmt::format("periporo: cannot write to the standard output{}; make room where it goes, or send it elsewhere\n",
+                     errno != 0 ? fmt::format(": {}", std::strerror(errno)) : ""));
+    return status == ExitStatus::done ? ExitStatus::failed : status;
+}
+
 ExitStatus report_faults(const std::function<ExitStatus()>& action)
 {
     try {
@@ -49,10 +65,15 @@ ExitStatus report_faults(const std::function<ExitStatus()>& action)
         return complain(ExitStatus::wrong_input, error.what());
     } catch (const ForeignCheckpoint& error) {
         return complain(ExitStatus::wrong_input, error.what());
+    } catch (const ArchiveError& error) { // of a checkpoint that is read, before the first step
+        return complain(ExitStatus::wrong_input, error.what());
     } catch (const std::bad_alloc&) {
         return complain(ExitStatus::failed, "out of memory; a larger discretization.spacing or a smaller "
                                             "discretization.horizon needs less");
     } catch (const std::exception& error) {
+        if (dynamic_cast<const std::system_error*>(&error) != nullptr &&
+            std::ferror(stdout) != 0) // report_unwritten_output() has words for it
+            return ExitStatus::failed;
         return complain(ExitStatus::failed, error.what());
     }
 }

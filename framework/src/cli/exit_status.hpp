@@ -25,4 +25,8 @@ public:
 /// Runs `action`; an exception is printed to standard error and becomes its exit status.
 ExitStatus report_faults(const std::function<ExitStatus()>& action);
 
+/// Brings what was printed to the standard output. What cannot be written there is told, and makes a command that is
+/// done one that failed.
+ExitStatus report_unwritten_output(ExitStatus status);
+
 } // namespace periporo::cli

@@ -17,9 +17,8 @@ periporo::cli::ExitStatus run_program(int count, char** arguments)
 {
     using namespace periporo::cli;
     const std::variant<Action, ExitStatus> asked_for = parse_command_line(count, arguments);
-    if (const Action* action = std::get_if<Action>(&asked_for))
-        return report_faults(*action);
-    return std::get<ExitStatus>(asked_for);
+    const Action* action = std::get_if<Action>(&asked_for);
+    return report_unwritten_output(action != nullptr ? report_faults(*action) : std::get<ExitStatus>(asked_for));
 }
 
 } // namespace

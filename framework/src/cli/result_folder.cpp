@@ -22,13 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_names = 8; ///< of a list on the terminal
 
-std::string list_of(const std::vector<std::string>& names)
-{
-    const std::size_t shown = std::min(names.size(), most_names);
-    return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                       shown < names.size() ? fmt::format(" and {} more", names.size() - shown) : "");
-}
-
 /// Where a path leads, and where it stands itself: a link may lead into a folder, or out of it.
 std::vector<fs::path> places_of(const fs::path& file)
 {
@@ -46,6 +39,13 @@ std::string name_below(const fs::path& folder, const fs::path& place)
 }
 
 } // namespace
+
+std::string list_of(const std::vector<std::string>& names)
+{
+    const std::size_t shown = std::min(names.size(), most_names);
+    return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                       shown < names.size() ? fmt::format(" and {} more", names.size() - shown) : "");
+}
 
 fs::path default_result_folder(const fs::path& case_file)
 {

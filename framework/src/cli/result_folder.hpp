@@ -18,6 +18,9 @@ enum class ExistingResults {
     overwrite ///< delete what is there
 };
 
+/// The first names of a list, for the terminal, and how many more there are.
+std::string list_of(const std::vector<std::string>& names);
+
 /// Where results go when nothing else is said: `results/<name of the case file>` under the current folder, the name
 /// without its extension and without dots at its beginning.
 std::filesystem::path default_result_folder(const std::filesystem::path& case_file);

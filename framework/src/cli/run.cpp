@@ -3,6 +3,7 @@
 //
 // `periporo run CASE`: from a case file to results.
 #include "cli/commands.hpp"
+#include "cli/places.hpp"
 #include "cli/result_folder.hpp"
 #include "cli/threads.hpp"
 #include "cli/unfinished_run.hpp"
@@ -58,6 +59,7 @@ ExitStatus run(RunArguments arguments)
         require_unfinished_run(folder, description, registry);
     if (arguments.overwrite)
         require_no_input_in(folder, files_of(description.inputs), of_writers);
+    require_possible_folder(folder);
     std::optional<FolderLock> lock; // until the end of the run
     arguments.options.take_folder = [&](const InputHashes& inputs) {
         if (arguments.overwrite) // with the libraries that plugins have loaded meanwhile

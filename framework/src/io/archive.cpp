@@ -152,8 +152,19 @@ void ArchiveWriter::commit(const path& previous)
     Implementation& archive = *implementation_;
     if (!previous.empty() && std::filesystem::exists(archive.target))
         rename_file(archive.target, previous);
-    rename_file(archive.part, archive.target);
-    archive.committed = true;
+    try {
+        rename_file(archive.part, archive.target);
+        archive.committed = true;
+    } catch (...) {
+        std::error_code ignored;
+        archive.committed = !std::filesystem::exists(archive.part, ignored); // but the folder is not on the disk yet
+        throw;
+    }
+}
+
+bool ArchiveWriter::is_in_place() const
+{
+    return implementation_->committed;
 }
 
 struct ArchiveReader::Implementation {

@@ -184,6 +184,8 @@ public:
     /// @param previous new name of the archive that `path` was until now; empty: it is replaced. A kill between the two
     /// renames leaves `previous` alone.
     void commit(const std::filesystem::path& previous = {});
+    /// Has `path` been given to this archive? Also after a commit() that threw later.
+    bool is_in_place() const;
 
 private:
     void complete();

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -79,22 +80,60 @@ std::map<std::string, std::string> by_key(const std::vector<Entry>& entries)
     return values;
 }
 
-} // namespace
+constexpr std::array without_influence{"title", "plugins.paths", "run.checkpoint_every"};
 
-std::string case_difference(const std::string& there, const std::string& here)
+bool has_influence(const std::string& key)
+{
+    return std::ranges::find(without_influence, key) == without_influence.end();
+}
+
+std::vector<std::pair<std::string, std::string>> with_influence(std::string_view text)
+{
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (const Entry& entry : entries_of(text))
+        if (has_influence(entry.key))
+            pairs.emplace_back(entry.key, entry.value);
+    return pairs;
+}
+
+/// All keys that differ, with influence or without.
+std::vector<std::string> differences(const std::string& there, const std::string& here, bool influence)
 {
     const std::vector<Entry> before = entries_of(there), now = entries_of(here);
     const std::map<std::string, std::string> values_before = by_key(before), values_now = by_key(now);
+    std::vector<std::string> found;
     for (const Entry& entry : before) {
+        if (has_influence(entry.key) != influence)
+            continue;
         const auto same = values_now.find(entry.key);
         if (same == values_now.end())
-            return fmt::format("{} is only there", entry.key);
-        if (same->second != entry.value)
-            return fmt::format("{} is {} there and {} here", entry.key, entry.value, same->second);
+            found.push_back(fmt::format("{} is only there", entry.key));
+        else if (same->second != entry.value)
+            found.push_back(fmt::format("{} is {} there and {} here", entry.key, entry.value, same->second));
     }
     for (const Entry& entry : now)
-        if (!values_before.contains(entry.key))
-            return fmt::format("{} is only here", entry.key);
+        if (has_influence(entry.key) == influence && !values_before.contains(entry.key))
+            found.push_back(fmt::format("{} is only here", entry.key));
+    return found;
+}
+
+} // namespace
+
+bool give_same_results(const std::string& there, const std::string& here)
+{
+    return there == here || with_influence(there) == with_influence(here);
+}
+
+std::vector<std::string> differences_without_influence(const std::string& there, const std::string& here)
+{
+    return differences(there, here, false);
+}
+
+std::string case_difference(const std::string& there, const std::string& here)
+{
+    for (const bool influence : {true, false})
+        if (const std::vector<std::string> found = differences(there, here, influence); !found.empty())
+            return found.front();
     return "its text differs";
 }
 

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-const std::string format = "periporo checkpoint 11";
+const std::string format = "periporo checkpoint 12";
 /// The name of checkpoints up to format 7.
 constexpr const char* old_name = "checkpoint.h5";
 constexpr std::size_t longest_case = std::size_t{64} << 20; ///< [bytes]
@@ -57,8 +57,9 @@ bool is_there(const fs::path& file)
     return there;
 }
 
+/// @return differences of the case without influence on the results
 /// @throws ForeignCheckpoint
-void require_same_run(ArchiveReader& archive, const std::string& resolved_case)
+std::vector<std::string> require_same_run(ArchiveReader& archive, const std::string& resolved_case)
 {
     std::string written_format, written_case;
     if (archive.has("format"))
@@ -66,22 +67,30 @@ void require_same_run(ArchiveReader& archive, const std::string& resolved_case)
     if (written_format != format)
         refuse_version(archive.file());
     archive("case", at_most(written_case, longest_case));
-    if (written_case != resolved_case)
+    if (!give_same_results(written_case, resolved_case))
         throw ForeignCheckpoint(fmt::format("{} was written by another case or with other --set values: {}; run the "
                                             "case that it was started with, or start anew with --overwrite",
                                             archive.file().string(), case_difference(written_case, resolved_case)));
+    return differences_without_influence(written_case, resolved_case);
 }
 
 } // namespace
 
 void write_checkpoint(const fs::path& folder, const std::string& resolved_case,
-                      const std::function<void(ArchiveWriter&)>& save)
+                      const std::function<void(ArchiveWriter&)>& save, const std::function<void()>& in_place)
 {
     ArchiveWriter archive(folder / checkpoint_name);
     archive("format", format);
     archive("case", resolved_case);
     save(archive);
-    archive.commit(folder / previous_checkpoint_name);
+    try {
+        archive.commit(folder / previous_checkpoint_name);
+    } catch (...) {
+        if (archive.is_in_place())
+            in_place();
+        throw;
+    }
+    in_place();
 }
 
 bool has_checkpoint(const fs::path& folder)
@@ -99,7 +108,7 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, const std::string& resol
         require_readable(folder / name);
         try {
             ArchiveReader archive(folder / name);
-            require_same_run(archive, resolved_case);
+            found.differences = require_same_run(archive, resolved_case);
             found.archive = std::move(archive);
             return found;
         } catch (const ArchiveError& error) {

@@ -29,9 +29,11 @@ inline constexpr const char* damaged_checkpoint_name = "checkpoint.damaged.bin";
 /// Writes a checkpoint aside, brings it to the disk, and renames the newest to the previous one and it to the newest.
 /// @param resolved_case the whole case, by which a checkpoint is known
 /// @param save adds all that the run needs to go on
+/// @param in_place is called when a resume finds the checkpoint, also when an error of the system follows
 /// @throws FileError naming the file and the reason
-void write_checkpoint(const std::filesystem::path& folder, const std::string& resolved_case,
-                      const std::function<void(ArchiveWriter&)>& save);
+void write_checkpoint(
+    const std::filesystem::path& folder, const std::string& resolved_case,
+    const std::function<void(ArchiveWriter&)>& save, const std::function<void()>& in_place = [] {});
 
 /// Is there a checkpoint in the folder, sound or not?
 bool has_checkpoint(const std::filesystem::path& folder);
@@ -40,6 +42,7 @@ bool has_checkpoint(const std::filesystem::path& folder);
 struct FoundCheckpoint {
     std::optional<ArchiveReader> archive; ///< none: there is no checkpoint
     std::vector<std::string> refused;     ///< what is wrong with newer ones, with their names
+    std::vector<std::string> differences; ///< of its case, without influence on the results
 };
 
 /// Changes nothing.

@@ -117,7 +117,7 @@ std::vector<std::string> entries_of(const fs::path& folder)
     try {
         return names_in(folder);
     } catch (const FileError& error) {
-        if (error.error() == ENOENT)
+        if (error.error() == ENOENT || error.error() == ENOTDIR) // a file is in its place, or above it
             return {};
         throw FolderError(error.what());
     }
@@ -126,6 +126,11 @@ std::vector<std::string> entries_of(const fs::path& folder)
 bool is_number(std::string_view text)
 {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_damaged(const std::string& name)
+{
+    return name.find(".damaged") != std::string::npos;
 }
 
 /// Does a run give this name to a file in results.parts: "000012-2400.h5", "vertices-1200.h5", "journal"?
@@ -381,6 +386,35 @@ void delete_run(const fs::path& folder, const std::vector<std::string>& of_write
         if (error)
             throw FileError("cannot delete", whole, error.value());
     }
+}
+
+std::vector<std::string> leftovers(const fs::path& folder)
+{
+    std::vector<std::string> left;
+    for (const std::string& name : entries_of(folder)) {
+        const bool is_folder = fs::is_directory(fs::symlink_status(folder / name));
+        const std::string whole = is_damaged(name) ? "" : without_additions(name);
+        if (!is_folder &&
+            (whole == checkpoint_name || whole == previous_checkpoint_name || whole == "history.csv.journal"))
+            left.push_back(name);
+        if (!is_folder || name != parts_folder)
+            continue;
+        const std::vector<std::string> parts = entries_of(folder / name);
+        for (const std::string& part : parts)
+            if (is_part_of_results(part) && !is_damaged(part))
+                left.push_back(name + '/' + part);
+        if (parts.empty())
+            left.push_back(name);
+    }
+    return left;
+}
+
+void delete_leftovers(const fs::path& folder)
+{
+    for (const std::string& name : leftovers(folder))
+        if (name != parts_folder)
+            remove_file(folder / name);
+    ::rmdir((folder / parts_folder).c_str()); // files of somebody else keep it
 }
 
 void note_names(const fs::path& folder, const std::vector<std::string>& names, bool fresh)

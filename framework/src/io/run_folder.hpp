@@ -4,7 +4,9 @@
 // The mark of a folder that holds a run: the lock of the run in progress, and the names of what runs wrote into it.
 #pragma once
 
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,6 +23,19 @@ class FolderError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
+
+/// Runs `action`, which prepares a folder before the first step: any error but want of memory becomes FolderError.
+template <class Action>
+void as_fault_of_folder(Action&& action)
+{
+    try {
+        action();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw FolderError(error.what());
+    }
+}
 
 /// Holds the lock of a folder, also when somebody deletes the mark. A folder in which nothing was written is left as it
 /// was found.
@@ -71,6 +86,11 @@ void require_sound_entries(const std::filesystem::path& folder, const std::vecto
 /// Deletes the regular files and links that have names of a run, and the folder of parts when nothing else is in it.
 /// @param of_writers as for names_of_run(); their folders are deleted whole
 void delete_run(const std::filesystem::path& folder, const std::vector<std::string>& of_writers);
+
+/// What a complete run has left that only a resumed one would need, by name: a kill may end it before it deletes this
+/// itself. Damaged files are not among it, nor those of somebody else.
+std::vector<std::string> leftovers(const std::filesystem::path& folder);
+void delete_leftovers(const std::filesystem::path& folder);
 
 /// Notes the names that the writers of a run make in its folder, before they make them.
 /// @param fresh the run does not go on with an earlier one

@@ -5,6 +5,7 @@
 #include "scheduler/run.hpp"
 
 #include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
 #include "periporo/file.hpp"
 #include "scheduler/interruption.hpp"
 #include "scheduler/run_log.hpp"
@@ -33,6 +34,8 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
         for (const std::string& refused : checkpoint.refused)
             log.logger()->warn("{}; going on from the older checkpoint, {}", refused,
                                checkpoint.archive->file().string());
+        for (const std::string& difference : checkpoint.differences)
+            log.logger()->info("{}; the run goes on all the same, since its results are the same", difference);
         if (options.resume && !checkpoint.archive)
             log.logger()->warn("{} holds no checkpoint yet; starting from the beginning", options.directory.string());
         Simulation simulation(description, registry, options, interruption, log.logger());
@@ -41,10 +44,12 @@ RunOutcome run_case(const CaseDescription& description, const PluginRegistry& re
             options.take_folder(simulation.inputs());
         else
             std::filesystem::create_directories(options.directory);
-        log.open(options.directory / "run.log", options.resume);
-        write_whole(options.directory / "case.toml", description.resolved);
-        if (!checkpoint.refused.empty())
-            set_damaged_checkpoint_aside(options.directory);
+        as_fault_of_folder([&] {
+            log.open(options.directory / "run.log", options.resume);
+            write_whole(options.directory / "case.toml", description.resolved);
+            if (!checkpoint.refused.empty())
+                set_damaged_checkpoint_aside(options.directory);
+        });
         return simulation.run();
     } catch (const std::exception& error) {
         log.add_to_file(error.what());

@@ -29,8 +29,8 @@ struct RunPosition {
     RestCriterion::State rest;   ///< of the stage
     std::string stage_reports;   ///< JSON of the stages that are done
 
-    /// Before the first step there is nothing to go on from, so a position that was kept is in a stage that has begun,
-    /// or behind one that has ended.
+    /// A position that was kept is in a stage that has begun, or behind one that has ended; behind the last one the
+    /// results are left to be merged.
     std::uint64_t stage_of_model() const { return begun || stage == 0 ? stage : stage - 1; }
 
     template <class Self, class Visit>

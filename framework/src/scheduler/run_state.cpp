@@ -55,7 +55,7 @@ void restore(ArchiveReader& archive, const RunState& run, const std::vector<Stag
 
 void RunPosition::check(const std::vector<StageDescription>& stages) const
 {
-    const bool somewhere = stage < stages.size() && (begun || stage > 0) && stage_step <= step;
+    const bool somewhere = stage <= stages.size() && (begun ? stage < stages.size() : stage > 0) && stage_step <= step;
     bool sometime = stage_start >= 0.0 && time >= stage_start && time_step > 0.0 && wall_seconds >= 0.0;
     if (somewhere && begun && stages[stage].kind == StageType::dynamic) // a stage that is over has been ended
         sometime = sometime && time < stage_start + stages[stage].duration;

@@ -16,6 +16,7 @@
 #include "io/provenance.hpp"
 #include "io/run_folder.hpp"
 #include "operator/refresh.hpp"
+#include "periporo/file.hpp"
 #include "scheduler/guards.hpp"
 #include "scheduler/output_checks.hpp"
 #include "scheduler/rest.hpp"
@@ -140,15 +141,20 @@ void Simulation::prepare(std::optional<ArchiveReader> checkpoint)
 RunOutcome Simulation::run()
 {
     interruption_.end_set_up();
-    if (resumed_ && options_.stop_after && at_.step >= *options_.stop_after) {
+    const bool stages_left = at_.stage < description_.stages.size();
+    if (resumed_ && stages_left && options_.stop_after && at_.step >= *options_.stop_after) {
         log_->warn("the run has done {} steps already; --stop-after {} stops it here", at_.step, *options_.stop_after);
         return RunOutcome::interrupted;
     }
     last_checkpoint_ = std::chrono::steady_clock::now();
-    note_names(options_.directory, outputs_.files(), !resumed_);
-    outputs_.begin(model_, describe_run());
+    as_fault_of_folder([this] {
+        note_names(options_.directory, outputs_.files(), !resumed_);
+        outputs_.begin(model_, describe_run());
+    });
     writes_ = true;
     try {
+        if (!resumed_)
+            checkpoint(); // what fails later for a reason from outside costs no stage that has ended
         while (at_.stage < description_.stages.size()) {
             const StageDescription& stage = description_.stages[at_.stage];
             if (!at_.begun)
@@ -161,6 +167,7 @@ RunOutcome Simulation::run()
             ++at_.stage;
             if (at_.stage < description_.stages.size() && !reason_to_stop().empty())
                 return stop();
+            checkpoint_if_possible(); // behind the last stage for the results, which need room to be merged
         }
         progress_.clear();
         outputs_.finish(true);
@@ -172,9 +179,11 @@ RunOutcome Simulation::run()
     } catch (const RunFailure&) {
         throw;
     } catch (const std::bad_alloc&) {
-        fail("out of memory; a larger discretization.spacing or a smaller discretization.horizon needs less");
+        fail("out of memory; a larger discretization.spacing or a smaller discretization.horizon needs less",
+             Cause::outside);
     } catch (const std::exception& error) {
-        fail(error.what());
+        const bool of_system = outputs_.failed() || dynamic_cast<const FileError*>(&error) != nullptr;
+        fail(error.what(), of_system ? Cause::outside : Cause::run);
     }
     write_summary("complete", outputs_.losses().empty() ? "" : "parts of the results are lost, see \"losses\"");
     remove_checkpoints(options_.directory);
@@ -238,10 +247,8 @@ RunDescription Simulation::describe_run()
     run.provenance = provenance(inputs_, options_.threads);
     run.resumed = resumed_;
     run.resumed_step = at_.step;
-    run.warn = [this](const std::string& text) {
-        log_->warn(text);
-        outputs_.note_loss(text);
-    };
+    run.warn = [this](const std::string& text) { log_->warn(text); };
+    run.note_loss = [this](const std::string& text) { outputs_.note_loss(text); };
     return run;
 }
 
@@ -270,8 +277,11 @@ void Simulation::restore(ArchiveReader& checkpoint)
     reports_ = parse_reports(at_.stage_reports, checkpoint.file());
     outputs_.expect_earlier(options_.directory, options_.without_lost);
     checkpoint_step_ = at_.step;
-    log_->info("resumed {} stage '{}' at step {}, time {:.6g} s", at_.begun ? "in" : "before",
-               description_.stages[at_.stage].name, at_.step, at_.time);
+    log_->info("resumed {} stage '{}' at step {}, time {:.6g} s",
+               at_.stage == description_.stages.size() ? "behind"
+               : at_.begun                             ? "in"
+                                                       : "before",
+               description_.stages[std::min(at_.stage, description_.stages.size() - 1)].name, at_.step, at_.time);
 }
 
 void Simulation::enter_stage(const StageDescription& stage)
@@ -563,16 +573,34 @@ void Simulation::checkpoint()
     if (const std::string lost = lost_point(model_); !lost.empty())
         fail(lost);
     outputs_.flush(at_.step);
+    store_state();
+    last_checkpoint_ = std::chrono::steady_clock::now();
+    checkpoint_took_ = last_checkpoint_ - began;
+}
+
+void Simulation::checkpoint_if_possible()
+{
+    outputs_.flush(at_.step);
+    try {
+        store_state();
+    } catch (const FileError& error) {
+        progress_.clear();
+        log_->warn("{}; the run goes on, and the last checkpoint stays", error.what());
+    }
+}
+
+void Simulation::store_state()
+{
     RunPosition position = at_;
     position.wall_seconds = wall_seconds();
     position.stage_reports = reports_.dump();
-    write_checkpoint(options_.directory, description_.resolved, [&](ArchiveWriter& archive) {
-        archive("inputs", inputs_.text());
-        save_run(archive, state(position));
-    });
-    last_checkpoint_ = std::chrono::steady_clock::now();
-    checkpoint_took_ = last_checkpoint_ - began;
-    checkpoint_step_ = at_.step;
+    write_checkpoint(
+        options_.directory, description_.resolved,
+        [&](ArchiveWriter& archive) {
+            archive("inputs", inputs_.text());
+            save_run(archive, state(position));
+        },
+        [this] { checkpoint_step_ = at_.step; });
 }
 
 double Simulation::wall_seconds() const
@@ -609,7 +637,7 @@ void Simulation::write_summary(const std::string& outcome, const std::string& me
                static_cast<double>(model_.neighbourhood.families.bonds()) * steps_per_second);
 }
 
-void Simulation::fail(const std::string& what)
+void Simulation::fail(const std::string& what, Cause cause)
 {
     const std::string& stage = description_.stages[std::min(at_.stage, description_.stages.size() - 1)].name;
     const std::string message = fmt::format("stage '{}', step {}, time {:.6g} s: {}", stage, at_.step, at_.time, what);
@@ -626,18 +654,21 @@ void Simulation::fail(const std::string& what)
                 second = error.what();
         }
     };
-    attempt([&] { outputs_.write_now(model_, *force_state_, at_, stage); });
+    if (cause == Cause::run) // a state that is sound is computed again
+        attempt([&] { outputs_.write_now(model_, *force_state_, at_, stage); });
     attempt([&] { outputs_.finish(false); });
-    const bool stored = !not_written && second.empty();
+    const bool stored = cause == Cause::run && !not_written && second.empty();
     attempt([&] { write_summary("failed", message); });
-    std::string rest =
-        stored        ? fmt::format("the state at the failure is the last snapshot in {}", options_.directory.string())
-        : not_written ? "the state at the failure is not stored"
-                      : fmt::format("the state at the failure is not stored: {}", second);
-    if (!stored)
-        rest += checkpoint_step_ ? fmt::format("; --resume goes on from the checkpoint of step {}", *checkpoint_step_)
-                                 : "; there is no checkpoint yet to resume from";
-    throw RunFailure(message + "\n" + rest);
+    if (stored)
+        throw RunFailure(fmt::format("{}\nthe state at the failure is the last snapshot in {}", message,
+                                     options_.directory.string()));
+    throw RunFailure(fmt::format("{}\n{}{}", message,
+                                 cause == Cause::outside ? ""
+                                 : not_written           ? "the state at the failure is not stored; "
+                                               : fmt::format("the state at the failure is not stored: {}; ", second),
+                                 checkpoint_step_
+                                     ? fmt::format("--resume goes on from the checkpoint of step {}", *checkpoint_step_)
+                                     : "there is no checkpoint yet to go on from; --resume starts from the beginning"));
 }
 
 } // namespace periporo

@@ -89,11 +89,17 @@ private:
     std::string reason_to_stop() const;
     /// Writes a checkpoint when it is time for one. Does the run have to stop?
     bool stop_here();
+    /// Writes a checkpoint. @throws FileError
     void checkpoint();
+    /// Writes a checkpoint that is not due by the clock: without room for it the run goes on with the earlier one.
+    void checkpoint_if_possible();
+    void store_state();
     double wall_seconds() const;
     std::string stage_line(double fraction) const;
     void write_summary(const std::string& outcome, const std::string& message);
-    [[noreturn]] void fail(const std::string& what);
+    /// Why a run fails: by what it computes, or because the system refuses a file or memory.
+    enum class Cause { run, outside };
+    [[noreturn]] void fail(const std::string& what, Cause cause = Cause::run);
 
     const CaseDescription& description_;
     const PluginRegistry& registry_;

@@ -23,20 +23,32 @@ namespace {
 
 using std::filesystem::path;
 
-/// What helps against an error of the system.
-const char* way_out(std::string_view deed, int error)
+/// What helps when the system denies access to a file.
+const char* way_in(std::string_view deed, const path& file)
 {
-    if (deed.starts_with("cannot read") && (error == EACCES || error == EPERM))
+    if (deed.starts_with("cannot read"))
         return "; make it readable";
+    struct stat status;
+    if (::lstat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(file.c_str(), W_OK) != 0)
+        return ::access(file.c_str(), R_OK) == 0 ? "; make the file writable" : "; make the file readable and writable";
+    return "; make the folder writable or choose another one";
+}
+
+/// What helps against an error of the system.
+const char* way_out(std::string_view deed, const path& file, int error)
+{
+    if (deed.starts_with("cannot make") && (error == ENOENT || error == ENOTDIR))
+        return "; choose another one";
     switch (error) {
     case ENOSPC:
         return "; make room there";
     case EDQUOT:
         return "; make room within the quota";
     case EROFS:
+        return "; make the folder writable or choose another one";
     case EACCES:
     case EPERM:
-        return "; make the folder writable or choose another one";
+        return way_in(deed, file);
     case ENOENT:
     case ENOTDIR:
     case ESTALE:
@@ -44,6 +56,8 @@ const char* way_out(std::string_view deed, int error)
     case EMFILE:
     case ENFILE:
         return "; allow more open files, as with ulimit -n";
+    case ENOMEM:
+        return "; allow more memory, as with ulimit -v, or make the case smaller";
     case EFBIG:
         return "; allow larger files, as with ulimit -f";
     case ELOOP:
@@ -123,7 +137,8 @@ path folder_of(const path& file)
 } // namespace
 
 FileError::FileError(std::string_view deed, const path& file, int error)
-    : std::runtime_error(fmt::format("{} {}: {}{}", deed, file.string(), std::strerror(error), way_out(deed, error))),
+    : std::runtime_error(
+          fmt::format("{} {}: {}{}", deed, file.string(), std::strerror(error), way_out(deed, file, error))),
       error_(error)
 {
 }

@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -17,7 +19,8 @@ namespace periporo::output {
 namespace {
 
 constexpr std::size_t header_size = 64;
-constexpr std::size_t fixed_size = 24; ///< of a record without its values
+constexpr std::size_t fixed_size = 24;           ///< of a record without its values
+constexpr std::uint64_t most_lost = 100'000'000; ///< records; a larger number is none of a journal
 
 std::size_t record_size(std::size_t values)
 {
@@ -58,10 +61,17 @@ void encode(std::string& bytes, RecordKind kind, std::uint64_t number, std::uint
     std::memcpy(bytes.data(), &sum, sizeof sum);
 }
 
-bool is_sound(std::string_view record, std::uint64_t number)
+/// Number of a sound record, or nothing.
+/// @param most numbers that a journal of this length can have
+std::optional<std::uint64_t> number_of(std::string_view record, std::uint64_t most)
 {
-    return value_at<std::uint32_t>(record, 0) == crc32(record.substr(4)) &&
-           value_at<std::uint64_t>(record, 8) == number;
+    const auto kind = value_at<std::uint32_t>(record, 4);
+    const auto number = value_at<std::uint64_t>(record, 8);
+    const bool plausible = kind >= static_cast<std::uint32_t>(RecordKind::row) &&
+                           kind <= static_cast<std::uint32_t>(RecordKind::loss) && number < most;
+    if (!plausible || value_at<std::uint32_t>(record, 0) != crc32(record.substr(sizeof(std::uint32_t))))
+        return std::nullopt;
+    return number;
 }
 
 /// Adds a record behind the others. `values` of the content has room for it: the views must stay.
@@ -79,32 +89,40 @@ void add_loss(JournalContent& content, std::uint64_t step, std::size_t values)
     content.damaged = true;
 }
 
-/// The sound records up to the first one with a step later than `last_step`.
+/// The sound records up to the first one with a step later than `last_step`, wherever they lie: each has its number, so
+/// that bytes that are lost, doubled or put in cost no record behind them.
 JournalContent parse(std::string_view text, const std::string& header, std::size_t values, std::uint64_t last_step)
 {
     JournalContent content;
     const bool known = text.substr(0, header_size) == header;
     const std::size_t size = record_size(values);
     const std::size_t count = known ? (text.size() - header_size) / size : 0;
-    content.values.resize((count + 2) * values); // two more for what resume() adds
+    content.values.resize((2 * count + 2) * values); // a loss before each record, and two for what resume() adds
     content.bytes = header_size;
     content.damaged = !known;
-    bool gap = false;
-    for (std::uint64_t k = 0; k < count; ++k) {
-        const std::string_view record = text.substr(header_size + k * size, size);
-        if (!is_sound(record, k)) {
-            gap = true;
+    const std::uint64_t most = 2 * count + most_lost;
+    std::uint64_t next = 0; // number of the record to come
+    bool foreign = false;   // are there bytes before the record that are none of a record to come?
+    for (std::size_t place = header_size; known && place + size <= text.size();) {
+        const std::string_view record = text.substr(place, size);
+        const std::optional<std::uint64_t> number = number_of(record, most);
+        if (!number || *number < next) { // damaged, or doubled
+            foreign = true;
+            place += number ? size : 1;
             continue;
         }
         const auto step = value_at<std::uint64_t>(record, 16);
         if (step > last_step)
             break;
-        if (gap)
+        if (*number > next)
             add_loss(content, step, values);
-        gap = false;
+        content.damaged = content.damaged || foreign;
+        foreign = false;
+        next = *number + 1;
         const auto kind = static_cast<RecordKind>(value_at<std::uint32_t>(record, 4));
         std::memcpy(add_record(content, kind, step, values).data(), record.data() + fixed_size, size - fixed_size);
-        content.bytes = header_size + (k + 1) * size;
+        place += size;
+        content.bytes = place;
     }
     return content;
 }
@@ -189,7 +207,17 @@ void Journal::add(RecordKind kind, std::uint64_t step, std::span<const double> v
 
 bool Journal::has_records(const std::filesystem::path& file)
 {
-    return size_of_file(file) > header_size;
+    const std::string text = read_whole(file);
+    std::size_t values = 0;
+    const bool known =
+        std::sscanf(text.c_str(), "periporo journal 1, %zu values", &values) == 1 && values < text.size();
+    if (!known)
+        return text.size() > header_size;
+    const JournalContent content =
+        parse(text, text.substr(0, header_size), values, std::numeric_limits<std::uint64_t>::max());
+    return content.damaged || std::ranges::any_of(content.records, [](const JournalRecord& record) {
+               return record.kind == RecordKind::row || record.kind == RecordKind::snapshot;
+           });
 }
 
 JournalContent Journal::read() const

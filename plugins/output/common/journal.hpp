@@ -46,7 +46,8 @@ struct JournalContent {
     std::optional<std::uint64_t> last_step(RecordKind kind) const;
 };
 
-/// A kill leaves the journal with its last record cut or without it. Damaged bytes cost the records that they are in.
+/// A kill leaves the journal with its last record cut or without it. Damaged bytes cost the records that they are in;
+/// lost and doubled ones cost no record behind them.
 class Journal {
 public:
     Journal() = default;
@@ -67,7 +68,7 @@ public:
     bool is_open() const { return file_.is_open(); }
     /// Everything so far.
     JournalContent read() const;
-    /// Does a file hold more than the head of a journal? @throws FileError
+    /// Does a file hold rows or snapshots, or bytes that may be some? @throws FileError
     static bool has_records(const std::filesystem::path& file);
 
 private:

@@ -5,6 +5,7 @@
 #include "history_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -148,11 +149,19 @@ HistoryTable HistoryTable::resume(const RunDescription& run)
         mended += row;
     std::string said =
         fmt::format("{} up to step {}: {} rows are sound", file.string(), run.resumed_step, kept.rows.size());
-    if (sums.size() > kept.rows.size())
+    if (sums.size() > kept.rows.size()) {
         said += fmt::format(", {} are lost", sums.size() - kept.rows.size());
-    if (content.damaged)
+        run.note_loss(
+            fmt::format("{} rows of {} up to step {}", sums.size() - kept.rows.size(), csv_name, run.resumed_step));
+    }
+    if (content.damaged && content.losses().empty())
+        said += fmt::format("; {} was damaged and is mended", csv_journal_name);
+    else if (content.damaged) {
+        for (const std::string& steps : content.losses())
+            run.note_loss(fmt::format("perhaps rows of {} {}", csv_name, steps));
         said += fmt::format("; {} is damaged, so that rows may be wrong or lost {}", csv_journal_name,
-                            content.losses().empty() ? "anywhere" : content.losses().back());
+                            fmt::join(content.losses(), " and "));
+    }
     if (!text.empty() && !std::string_view(text).starts_with(mended)) {
         const std::filesystem::path damaged = name_when_damaged(file);
         write_whole(damaged, text);

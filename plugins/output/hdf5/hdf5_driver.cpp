@@ -64,6 +64,7 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t)
     auto* file = new (std::nothrow) OpenFile;
     if (file == nullptr) {
         ::close(descriptor);
+        info->fault->error = ENOMEM;
         return nullptr;
     }
     file->descriptor = descriptor;

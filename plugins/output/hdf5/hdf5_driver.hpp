@@ -28,7 +28,8 @@ struct WriteFault {
 /// @throws H5::Exception when it cannot be created; `fault` then has the reason
 H5::H5File create_hdf5_file(const std::filesystem::path& file, WriteFault& fault);
 
-/// Writes an HDF5 file by fill(H5::H5File&). After an error nothing is left of it.
+/// Writes an HDF5 file by fill(H5::H5File&), within guarded() of hdf5_objects.hpp. After an error nothing is left of
+/// it.
 /// @throws FileError with the system's reason; H5::Exception when HDF5 has one of its own
 template <class Fill>
 void write_hdf5_file(const std::filesystem::path& file, Fill&& fill)
@@ -39,7 +40,6 @@ void write_hdf5_file(const std::filesystem::path& file, Fill&& fill)
         std::filesystem::remove(file, ignored);
     };
     try {
-        H5::Exception::dontPrint();
         H5::H5File stream = create_hdf5_file(file, fault);
         std::forward<Fill>(fill)(stream);
         stream.close();

@@ -4,12 +4,11 @@
 // Texts, numbers, arrays and links in HDF5.
 #include "hdf5_objects.hpp"
 
-#include "periporo/file.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <string_view>
 
 namespace periporo::output {
 
@@ -61,7 +60,29 @@ void write_values(const H5::Group& group, const std::string& name, const H5::Pre
     dataset.close(); // here and not in its destructor, which could not report a full disk
 }
 
+herr_t look_for_memory(unsigned, const H5E_error2_t* error, void* found)
+{
+    // Filters of HDF5 have no class of errors for it, but the word.
+    const std::string_view words = error->desc != nullptr ? error->desc : "";
+    if (error->maj_num == H5E_RESOURCE || words.find("memory") != std::string_view::npos)
+        *static_cast<bool*>(found) = true;
+    return 0;
+}
+
 } // namespace
+
+Hdf5Errors::Hdf5Errors()
+{
+    H5Eset_auto2(
+        H5E_DEFAULT,
+        [](hid_t stack, void* found) { return H5Ewalk2(stack, H5E_WALK_DOWNWARD, look_for_memory, found); },
+        &out_of_memory_);
+}
+
+Hdf5Errors::~Hdf5Errors()
+{
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 H5::H5File open_unlocked(const std::filesystem::path& file)
 {

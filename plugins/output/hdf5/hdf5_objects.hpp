@@ -4,8 +4,11 @@
 // The few HDF5 objects a result file is made of: texts, numbers, arrays, columns, and links to other files.
 #pragma once
 
+#include "periporo/file.hpp"
+
 #include <H5Cpp.h>
 
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -14,14 +17,30 @@
 
 namespace periporo::output {
 
+/// While it lives HDF5 prints no errors, and it finds out whether one of them is a want of memory: the exceptions of
+/// HDF5 do not say so, and its stack of errors is empty again when one is caught.
+class Hdf5Errors {
+public:
+    Hdf5Errors();
+    ~Hdf5Errors();
+    Hdf5Errors(const Hdf5Errors&) = delete;
+    Hdf5Errors& operator=(const Hdf5Errors&) = delete;
+    bool out_of_memory() const { return out_of_memory_; }
+
+private:
+    bool out_of_memory_ = false;
+};
+
 /// Runs `action` and turns what HDF5 throws, which is no std::exception, into an error with `what` and the file.
 template <class Action>
 auto guarded(const std::string& what, const std::filesystem::path& file, Action&& action)
 {
+    const Hdf5Errors errors;
     try {
-        H5::Exception::dontPrint();
         return action();
     } catch (const H5::Exception& error) {
+        if (errors.out_of_memory())
+            throw FileError(what, file, ENOMEM);
         throw std::runtime_error(what + " " + file.string() + ": HDF5: " + error.getDetailMsg() + " (" +
                                  error.getFuncName() + ")");
     }

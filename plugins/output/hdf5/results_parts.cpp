@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -32,7 +33,31 @@ std::string meaning_of_rows(const RunDescription& run)
 
 std::size_t values_of_record(const RunDescription& run)
 {
-    return std::max<std::size_t>(run.history.size(), 1);
+    return std::max<std::size_t>(run.history.size(), 2); // number and checksum of a snapshot
+}
+
+/// What the journal records of a snapshot.
+struct RecordedSnapshot {
+    std::uint64_t step;
+    std::uint32_t sum;
+};
+
+std::array<double, 2> values_of(const StoredSnapshot& snapshot)
+{
+    return {static_cast<double>(snapshot.number), static_cast<double>(snapshot.sum)};
+}
+
+/// Is a part the one that the run wrote under this number? Journal and checkpoint may each lack it.
+/// @param last_step of the checkpoint, whose snapshot may have been given after it
+bool is_the_one_given(const StoredSnapshot& stored, const std::map<std::uint64_t, RecordedSnapshot>& recorded,
+                      const std::vector<SnapshotMoment>& expected, std::uint64_t last_step)
+{
+    const auto record = recorded.find(stored.number);
+    if (record != recorded.end() && (record->second.step != stored.step || record->second.sum != stored.sum))
+        return false;
+    if (stored.number < expected.size())
+        return expected[stored.number].step == stored.step;
+    return expected.empty() || stored.step == last_step;
 }
 
 bool is_of_parts(const std::string& name)
@@ -85,7 +110,7 @@ ResultsParts ResultsParts::resume(const RunDescription& run, int compression,
     results.last_row_ = journal.last_step(RecordKind::row);
     const std::vector<std::string> later = results.look_at_parts(journal, expected);
     for (const std::string& steps : journal.losses())
-        results.missing_.push_back(fmt::format("rows of the history {}", steps));
+        results.add_loss(fmt::format("rows of the history {}", steps));
     if (!results.missing_.empty()) {
         const std::size_t told = std::min(results.missing_.size(), most_losses_told);
         run.warn(fmt::format(
@@ -93,6 +118,9 @@ ResultsParts ResultsParts::resume(const RunDescription& run, int compression,
             fmt::join(results.missing_.begin(), results.missing_.begin() + static_cast<std::ptrdiff_t>(told), "; "),
             told < results.missing_.size() ? fmt::format("; and {} more", results.missing_.size() - told) : ""));
     }
+    if (journal.damaged && journal.losses().empty())
+        run.warn(fmt::format("{} was damaged and is mended; no row is lost, and the damaged file is kept beside it",
+                             (results.parts_ / journal_name).string()));
     // The result file stops showing what is later than the checkpoint before that is deleted.
     results.show();
     for (const std::string& name : later)
@@ -134,15 +162,16 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
                                                      const std::vector<SnapshotMoment>& expected)
 {
     std::vector<std::string> later;
-    std::map<std::uint64_t, std::string> lost; // by number, in words
+    std::map<std::uint64_t, std::string> lost;    // by number, in the same words at every resume
+    std::map<std::uint64_t, std::string> damaged; // by number, how the part is kept
     for (std::size_t number = 0; number < expected.size(); ++number)
         lost[number] = fmt::format("snapshot {:06} of step {}, time {:.6g} s", number, expected[number].step,
                                    expected[number].time);
-    std::set<std::uint64_t> recorded;
+    std::map<std::uint64_t, RecordedSnapshot> recorded; // by number
     for (const JournalRecord& record : journal.records)
         if (record.kind == RecordKind::snapshot) {
             const auto number = static_cast<std::uint64_t>(record.values[0]);
-            recorded.insert(number);
+            recorded[number] = {record.step, static_cast<std::uint32_t>(record.values[1])};
             lost.try_emplace(number, fmt::format("snapshot {:06} of step {}", number, record.step));
         }
     for (const std::string& name : names_in(parts_)) {
@@ -155,15 +184,18 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
             continue;
         }
         std::optional<StoredSnapshot> stored = read_snapshot_part(parts_ / name);
-        if (!stored) {
-            lost[number] = fmt::format("snapshot {:06} of step {}, damaged, kept as {}/{}", number, step, parts_name,
-                                       set_aside(parts_ / name).filename().string());
+        if (!stored || !is_the_one_given(*stored, recorded, expected, run_.resumed_step)) {
+            damaged[number] =
+                fmt::format(", damaged, kept as {}/{}", parts_name, set_aside(parts_ / name).filename().string());
+            if (expected.empty() && !recorded.contains(number) &&
+                (snapshots_.empty() || snapshots_.back().number < number))
+                lost.try_emplace(number, fmt::format("snapshot {:06} of step {}", number, step));
             continue;
         }
         lost.erase(number);
-        snapshots_.push_back(std::move(*stored));
         if (!recorded.contains(number))
-            journal_.add(RecordKind::snapshot, step, std::vector{static_cast<double>(number)});
+            journal_.add(RecordKind::snapshot, step, values_of(*stored));
+        snapshots_.push_back(std::move(*stored));
     }
     next_number_ = std::max<std::uint64_t>(expected.size(), snapshots_.empty() ? 0 : snapshots_.back().number + 1);
     if (!lost.empty())
@@ -175,9 +207,18 @@ std::vector<std::string> ResultsParts::look_at_parts(const JournalContent& journ
         next = snapshot.number + 1;
         provide_vertices(snapshot.points);
     }
+    for (const auto& [number, words] : damaged)
+        if (!lost.contains(number)) // the run has this number elsewhere, or never had it
+            run_.warn(fmt::format("a part of {} is no snapshot of this run{}", parts_.string(), words));
     for (const auto& [number, words] : lost)
-        missing_.push_back(words);
+        add_loss(words, damaged[number]);
     return later;
+}
+
+void ResultsParts::add_loss(const std::string& words, const std::string& more)
+{
+    missing_.push_back(words + more);
+    run_.note_loss(words);
 }
 
 void ResultsParts::provide_vertices(std::size_t points)
@@ -194,7 +235,7 @@ void ResultsParts::add(const Snapshot& snapshot, const std::vector<FieldView>& f
         return;
     provide_vertices(snapshot.positions.size() / 3);
     snapshots_.push_back(write_snapshot_part(parts_, next_number_, snapshot, fields, compression_));
-    journal_.add(RecordKind::snapshot, snapshot.step, std::vector{static_cast<double>(next_number_)});
+    journal_.add(RecordKind::snapshot, snapshot.step, values_of(snapshots_.back()));
     ++next_number_;
     // Result file and XDMF grow with the number of snapshots. They are written again when the snapshots that wait are
     // as large as they are, so that a run never writes more of them than of snapshots.
@@ -230,14 +271,14 @@ void ResultsParts::merge()
 {
     journal_.synchronize();
     for (std::size_t s = 0; s < snapshots_.size();) {
-        const fs::path part = parts_ / snapshots_[s].part_name();
-        if (fs::is_regular_file(fs::symlink_status(part)) && is_sound_part(part)) {
+        if (is_sound_part(parts_, snapshots_[s])) {
             ++s;
             continue;
         }
-        missing_.push_back(fmt::format("snapshot {} of step {}", snapshots_[s].name(), snapshots_[s].step));
-        run_.warn(
-            fmt::format("{} was damaged or deleted while the run went on; the results are without it", part.string()));
+        add_loss(fmt::format("snapshot {} of step {}, time {:.6g} s", snapshots_[s].name(), snapshots_[s].step,
+                             snapshots_[s].time));
+        run_.warn(fmt::format("{} was damaged or deleted while the run went on; the results are without it",
+                              (parts_ / snapshots_[s].part_name()).string()));
         snapshots_.erase(snapshots_.begin() + static_cast<std::ptrdiff_t>(s));
     }
     write_merged_results(file_, {run_, snapshots_, journal_.read(), missing_, true}, parts_, compression_);

@@ -59,6 +59,9 @@ private:
     ResultsParts(const RunDescription& run, int compression);
     /// Reads the parts up to the step that is resumed; @return names of those after it.
     std::vector<std::string> look_at_parts(const JournalContent& journal, const std::vector<SnapshotMoment>& expected);
+    /// @param words the same at every resume, so that the run notes the loss once
+    /// @param more what is told beside them
+    void add_loss(const std::string& words, const std::string& more = "");
     void provide_vertices(std::size_t points);
     void write_xdmf() const;
     /// Deletes the files of this class in the folder of parts, all or those of writing aside.

@@ -20,7 +20,6 @@
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
-#include <tuple>
 
 namespace periporo::output {
 
@@ -61,9 +60,18 @@ Contents contents_of(const std::filesystem::path& file, std::size_t without)
     return contents;
 }
 
-/// Writes an HDF5 file by fill(H5::H5File&), seals it and gives it its name.
+/// Checksum of a part, or nothing when it is not the one of its seal.
+std::optional<std::uint32_t> sum_of_part(const std::filesystem::path& part)
+{
+    const Contents contents = contents_of(part, seal_of(0, 0).size());
+    if (contents.rest != seal_of(contents.size, contents.sum))
+        return std::nullopt;
+    return contents.sum;
+}
+
+/// Writes an HDF5 file by fill(H5::H5File&), seals it and gives it its name. @return its checksum
 template <class Fill>
-void write_part(const std::filesystem::path& file, Fill&& fill)
+std::uint32_t write_part(const std::filesystem::path& file, Fill&& fill)
 {
     const std::filesystem::path aside = part_of(file);
     guarded("cannot write", file, [&] { write_hdf5_file(aside, fill); });
@@ -71,6 +79,7 @@ void write_part(const std::filesystem::path& file, Fill&& fill)
         const Contents contents = contents_of(aside, 0);
         AppendedFile(aside).append(seal_of(contents.size, contents.sum));
         publish(aside, file);
+        return contents.sum;
     } catch (...) {
         std::error_code ignored; // the room may be needed
         std::filesystem::remove(aside, ignored);
@@ -102,6 +111,7 @@ bool read_number(std::string_view& text, Number& number)
 StoredSnapshot describe(const H5::Group& group)
 {
     StoredSnapshot stored;
+    stored.step = static_cast<std::uint64_t>(read_whole_attribute(group, "step"));
     stored.time = read_real_attribute(group, "time");
     for (hsize_t i = 0; i < group.getNumObjs(); ++i) { // in the order of their names
         const std::string name = group.getObjnameByIdx(i);
@@ -148,8 +158,8 @@ std::string vertices_part_name(std::size_t points)
 StoredSnapshot write_snapshot_part(const std::filesystem::path& folder, std::uint64_t number, const Snapshot& snapshot,
                                    const std::vector<FieldView>& fields, int compression)
 {
-    StoredSnapshot stored{number, snapshot.step, snapshot.time, snapshot.positions.size() / 3, {}};
-    write_part(folder / stored.part_name(), [&](H5::H5File& file) {
+    StoredSnapshot stored{number, snapshot.step, snapshot.time, snapshot.positions.size() / 3};
+    stored.sum = write_part(folder / stored.part_name(), [&](H5::H5File& file) {
         const H5::Group group = file.createGroup(part_snapshot);
         write_attribute(group, "step", static_cast<std::int64_t>(snapshot.step));
         write_attribute(group, "time", snapshot.time);
@@ -164,21 +174,27 @@ StoredSnapshot write_snapshot_part(const std::filesystem::path& folder, std::uin
     return stored;
 }
 
-bool is_sound_part(const std::filesystem::path& part)
+bool is_sound_part(const std::filesystem::path& folder, const StoredSnapshot& snapshot)
 {
-    const Contents contents = contents_of(part, seal_of(0, 0).size());
-    return contents.rest == seal_of(contents.size, contents.sum);
+    const std::filesystem::path part = folder / snapshot.part_name();
+    return std::filesystem::is_regular_file(std::filesystem::symlink_status(part)) && sum_of_part(part) == snapshot.sum;
 }
 
 std::optional<StoredSnapshot> read_snapshot_part(const std::filesystem::path& part)
 {
     const auto known = number_and_step(part.filename().string());
-    if (!known || !std::filesystem::is_regular_file(std::filesystem::symlink_status(part)) || !is_sound_part(part))
+    if (!known || !std::filesystem::is_regular_file(std::filesystem::symlink_status(part)))
         return std::nullopt;
-    return guarded("cannot read", part, [&] {
+    const std::optional<std::uint32_t> sum = sum_of_part(part);
+    if (!sum)
+        return std::nullopt;
+    return guarded("cannot read", part, [&]() -> std::optional<StoredSnapshot> {
         StoredSnapshot stored = describe(open_unlocked(part).openGroup(part_snapshot));
-        std::tie(stored.number, stored.step) = *known;
-        return std::optional(std::move(stored));
+        if (stored.step != known->second) // somebody has copied another part over it
+            return std::nullopt;
+        stored.number = known->first;
+        stored.sum = *sum;
+        return stored;
     });
 }
 

@@ -33,7 +33,8 @@ struct StoredSnapshot {
     std::uint64_t step = 0;
     double time = 0.0; ///< [s]
     std::size_t points = 0;
-    std::vector<StoredField> fields; ///< by name, without the position
+    std::vector<StoredField> fields = {}; ///< by name, without the position
+    std::uint32_t sum = 0;                ///< checksum of the part
 
     std::string name() const;      ///< "000012"
     std::string part_name() const; ///< "000012-2400.h5": number and step
@@ -48,12 +49,12 @@ std::string vertices_part_name(std::size_t points);
 StoredSnapshot write_snapshot_part(const std::filesystem::path& folder, std::uint64_t number, const Snapshot& snapshot,
                                    const std::vector<FieldView>& fields, int compression);
 
-/// Looks at a part that was written earlier; nothing when it is damaged. Bytes whose checksum is wrong never reach
-/// HDF5.
+/// Looks at a part that was written earlier; nothing when it is damaged, or holds the snapshot of another step than its
+/// name says. Bytes whose checksum is wrong never reach HDF5.
 std::optional<StoredSnapshot> read_snapshot_part(const std::filesystem::path& part);
 
-/// Is the file what was written? @throws FileError when it cannot be read
-bool is_sound_part(const std::filesystem::path& part);
+/// Is the file the part that was written for this snapshot? @throws FileError when it cannot be read
+bool is_sound_part(const std::filesystem::path& folder, const StoredSnapshot& snapshot);
 
 /// The numbers 0 to points-1.
 void write_vertices(const H5::Group& group, const std::string& name, std::size_t points, int compression);

@@ -50,6 +50,18 @@ struct Checkpoints {
     test::TemporaryFolder folder;
 };
 
+/// A folder with a checkpoint of a case that has keys without influence on the results.
+struct TemporaryRun {
+    TemporaryRun()
+    {
+        write_checkpoint(folder.path(),
+                         "title = \"a case\"\n\n[plugins]\npaths = [\"/a\"]\n\n[time]\nsafety = 0.85\n\n[run]\n"
+                         "checkpoint_every = 60.0  # s\nhistory_every = 1.0  # s\n",
+                         [](ArchiveWriter&) {});
+    }
+    test::TemporaryFolder folder;
+};
+
 } // namespace
 
 TEST_CASE("the newest checkpoint is found, and the one before it is kept")
@@ -127,6 +139,36 @@ TEST_CASE("a checkpoint of another case names the first key that differs, and on
     std::filesystem::remove(checkpoints.folder / checkpoint_name);
     test::write_bytes(checkpoints.folder / "checkpoint.h5", "of format 7");
     check_mentions(message(the_case), {"another version of the program", "checkpoint.h5"});
+}
+
+TEST_CASE("another title, other times of checkpoints and other folders of plugins do not keep a run from going on")
+{
+    const TemporaryRun run;
+    const std::string other = "title = \"another # case\"\n\n[plugins]\npaths = [\"/b\"]\n\n[time]\nsafety = 0.85\n\n"
+                              "[run]\ncheckpoint_every = 1.0  # s\nhistory_every = 1.0  # s\n";
+    const FoundCheckpoint found = find_checkpoint(run.folder.path(), other);
+    CHECK(found.archive);
+    CHECK(found.differences == std::vector<std::string>{"title is \"a case\" there and \"another # case\" here",
+                                                        "plugins.paths is [\"/a\"] there and [\"/b\"] here",
+                                                        "run.checkpoint_every is 60.0 there and 1.0 here"});
+    std::string changed = other;
+    changed.replace(changed.find("history_every = 1.0"), 19, "history_every = 2.0");
+    check_mentions(message_of_error([&] { find_checkpoint(run.folder.path(), changed); }),
+                   {"run.history_every is 1.0 there and 2.0 here"});
+}
+
+TEST_CASE("a checkpoint that is in place is told, also when the folder does not get to the disk afterwards")
+{
+    const Checkpoints checkpoints(1);
+    int placed = 0;
+    const auto write = [&](const std::function<void(ArchiveWriter&)>& save) {
+        write_checkpoint(checkpoints.folder.path(), the_case, save, [&] { ++placed; });
+    };
+    write([](ArchiveWriter& archive) { archive("step", 2.0); });
+    CHECK(placed == 1);
+    CHECK_THROWS(write([](ArchiveWriter&) { throw std::runtime_error("no memory"); }));
+    CHECK(placed == 1);
+    CHECK(checkpoints.found() == 2.0);
 }
 
 TEST_CASE("the difference of two cases is the first key whose value differs, with its tables and their numbers")

@@ -42,11 +42,15 @@ void stop_at(const std::filesystem::path& folder, std::uint64_t step)
 }
 
 /// Resumes at a step and runs to step 60; @return what the writer says aloud.
-std::string finish_from(const std::filesystem::path& folder, std::uint64_t step)
+/// @param losses what it notes as lost
+std::string finish_from(const std::filesystem::path& folder, std::uint64_t step,
+                        std::vector<std::string>* losses = nullptr)
 {
     std::string said;
     RunDescription run = test::resumed_run(folder, step);
     run.warn = [&](const std::string& warning) { said += warning + '\n'; };
+    if (losses != nullptr)
+        run.note_loss = [losses](const std::string& words) { losses->push_back(words); };
     const auto writer = test::output("csv");
     writer->begin(run);
     test::give_steps(*writer, step + 1, 60);
@@ -186,7 +190,9 @@ TEST_CASE("rows that are missing at the end, or the whole file, are said, and th
     stop_at(cut.path(), 33);
     const std::string rows = content(cut / "history.csv");
     std::ofstream(cut / "history.csv", std::ios::binary) << rows.substr(0, rows.find("\n30,") + 1);
-    test::check_mentions(finish_from(cut.path(), 33), {"30 rows are sound", "4 are lost"});
+    std::vector<std::string> losses;
+    test::check_mentions(finish_from(cut.path(), 33, &losses), {"30 rows are sound", "4 are lost"});
+    CHECK(losses == std::vector<std::string>{"4 rows of history.csv up to step 33"});
     const TemporaryFolder empty;
     stop_at(empty.path(), 33);
     std::filesystem::remove(empty / "history.csv");

@@ -114,12 +114,15 @@ void stop_at(const std::filesystem::path& folder, std::uint64_t step)
 }
 
 /// Resumes at a step and runs to the end; @return what the writer says aloud.
-std::string finish_from(const std::filesystem::path& folder, std::uint64_t step, std::uint64_t last_step)
+/// @param expected snapshots that the checkpoint knows; none: the writer is not told
+std::string finish_from(const std::filesystem::path& folder, std::uint64_t step, std::uint64_t last_step,
+                        const std::vector<SnapshotMoment>& expected = {})
 {
     std::string said;
     RunDescription run = test::resumed_run(folder, step);
     run.warn = [&](const std::string& warning) { said += warning + '\n'; };
     const auto writer = test::output("hdf5");
+    dynamic_cast<EarlierOutputReader&>(*writer).expect(expected);
     writer->begin(run);
     test::give_steps(*writer, step + 1, last_step);
     writer->finish(true);
@@ -373,6 +376,71 @@ TEST_CASE("a bit that flips in a part is noticed wherever it is, and the part is
     }
 }
 
+TEST_CASE("a sound part under the name of another snapshot is set aside, named, and left out")
+{
+    struct Copy {
+        const char* from;
+        const char* to;
+        const char* said;
+    };
+    const std::vector<Copy> copies{
+        {"000001-10.h5", "000003-30.h5", "lost: snapshot 000003 of step 30, time 2.3 s, damaged, kept as"},
+        {"000001-10.h5", "000002-10.h5",
+         "is no snapshot of this run, damaged, kept as results.parts/000002-10.h5.damaged"},
+        {"000001-10.h5", "000007-10.h5",
+         "is no snapshot of this run, damaged, kept as results.parts/000007-10.h5.damaged"}};
+    for (const Copy& copy : copies) {
+        CAPTURE(copy.to);
+        const TemporaryFolder folder;
+        stop_at(folder.path(), 45);
+        std::filesystem::copy_file(folder / "results.parts" / copy.from, folder / "results.parts" / copy.to,
+                                   std::filesystem::copy_options::overwrite_existing);
+        std::vector<SnapshotMoment> expected;
+        for (std::uint64_t step = 0; step <= 40; step += 10)
+            expected.push_back({step, test::made_up_time(step)});
+        test::check_mentions(finish_from(folder.path(), 45, 60, expected), {copy.said});
+        CHECK(std::filesystem::exists(folder / "results.parts" / (copy.to + std::string(".damaged"))));
+        auto without = whole_run(60);
+        auto found = content_of(folder / "results.h5");
+        if (copy.to == std::string("000003-30.h5")) {
+            CHECK(found.at("/@missing").find("snapshot 000003 of step 30") != std::string::npos);
+            found.erase("/@missing");
+            std::erase_if(without, [](const auto& entry) { return entry.first.starts_with("/snapshots/000003"); });
+        }
+        check_same(found, without);
+    }
+}
+
+TEST_CASE("a part of another run that has the same number and step is no part of this one")
+{
+    const TemporaryFolder other;
+    const auto writer = test::output("hdf5");
+    writer->begin(test::made_up_run(other.path()));
+    for (std::uint64_t step = 0; step <= 20; step += 10)
+        test::give_snapshot(*writer, step, test::made_up_points + 1);
+    const TemporaryFolder folder;
+    stop_at(folder.path(), 45);
+    std::filesystem::copy_file(other / "results.parts/000002-20.h5", folder / "results.parts/000002-20.h5",
+                               std::filesystem::copy_options::overwrite_existing);
+    test::check_mentions(finish_from(folder.path(), 45, 60), {"lost: snapshot 000002 of step 20, damaged"});
+}
+
+TEST_CASE("a part that somebody replaces by another one while the run goes on is not merged")
+{
+    const TemporaryFolder folder;
+    std::string said;
+    RunDescription run = test::made_up_run(folder.path());
+    run.warn = [&](const std::string& warning) { said += warning; };
+    const auto writer = test::output("hdf5");
+    writer->begin(run);
+    test::give_steps(*writer, 0, 45);
+    std::filesystem::copy_file(folder / "results.parts/000001-10.h5", folder / "results.parts/000002-20.h5",
+                               std::filesystem::copy_options::overwrite_existing);
+    writer->finish(true);
+    test::check_mentions(said, {"000002-20.h5 was damaged or deleted"});
+    CHECK_FALSE(content_of(folder / "results.h5").contains("/snapshots/000002/position"));
+}
+
 TEST_CASE("a part that is cut or missing is named, and the others go on")
 {
     const TemporaryFolder folder;
@@ -406,6 +474,52 @@ TEST_CASE("rows of a damaged journal are lost one by one, and never read as numb
         CHECK(std::is_sorted(steps.begin(), steps.end()));
         for (std::size_t r = 0; r < steps.size(); ++r)
             CHECK(energy[r] == test::made_up_value(static_cast<std::uint64_t>(steps[r]), 0));
+    }
+}
+
+TEST_CASE("bytes that are doubled, lost or put into a journal cost no row behind them")
+{
+    constexpr std::size_t head = 64, record = 24 + 3 * sizeof(double); // of a journal with three values a record
+    const auto expected = whole_run(60);
+    const std::size_t place = head + 20 * record; // in front of a row
+    struct Change {
+        const char* name;
+        std::function<void(std::string&)> make;
+        std::size_t rows;
+        const char* said;
+    };
+    const std::vector<Change> changes{
+        {"a record doubled", [&](std::string& bytes) { bytes.insert(place, bytes.substr(place, record)); }, 61,
+         "journal was damaged and is mended; no row is lost"},
+        {"bytes put in", [&](std::string& bytes) { bytes.insert(place, "of somebody else"); }, 61,
+         "journal was damaged and is mended; no row is lost"},
+        {"two rows exchanged",
+         [&](std::string& bytes) {
+             const std::string row = bytes.substr(place, record);
+             bytes.erase(place, record).insert(place + record, row);
+         },
+         60, "rows of the history between steps"},
+        {"a record lost", [&](std::string& bytes) { bytes.erase(place, record); }, 60,
+         "rows of the history between steps"},
+        {"a byte lost", [&](std::string& bytes) { bytes.erase(place + 7, 1); }, 60,
+         "rows of the history between steps"}};
+    for (const Change& change : changes) {
+        CAPTURE(change.name);
+        const TemporaryFolder folder;
+        stop_at(folder.path(), 45);
+        std::string bytes = file_text(folder / "results.parts/journal");
+        change.make(bytes);
+        std::ofstream(folder / "results.parts/journal", std::ios::binary) << bytes;
+        test::check_mentions(finish_from(folder.path(), 45, 60), {change.said});
+        CHECK(std::filesystem::exists(folder / "results.parts/journal.damaged"));
+        const H5::H5File file((folder / "results.h5").string(), H5F_ACC_RDONLY);
+        const std::vector<std::int64_t> steps = integers(file, "/history/step");
+        const std::vector<double> energy = reals(file, "/history/kinetic_energy");
+        CHECK(steps.size() == change.rows);
+        CHECK(std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) == steps.end());
+        for (std::size_t r = 0; r < steps.size(); ++r)
+            CHECK(energy[r] == test::made_up_value(static_cast<std::uint64_t>(steps[r]), 0));
+        CHECK(content_of(folder / "results.h5").contains("/snapshots/000006/position"));
     }
 }
 
