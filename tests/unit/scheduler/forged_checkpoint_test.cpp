@@ -126,7 +126,8 @@ TEST_CASE("no checkpoint with a right checksum and senseless content brings a ru
     REQUIRE(sound.entries.size() > 50);
     REQUIRE(run.message(sound) == "");
     // Images of one more symmetry plane, and blanks behind a text.
-    const std::set<std::string> may_be_longer{"model/images/isometries", "position/stage_reports"};
+    const std::set<std::string> may_be_longer{"model/neighbourhood/images/isometries", "position/stage_reports",
+                                              "case"};
     for (std::size_t e = 0; e < sound.entries.size(); ++e) {
         const ArchiveContent::Entry& entry = sound.entries[e];
         CAPTURE(entry.name);
@@ -146,7 +147,7 @@ TEST_CASE("no checkpoint with a right checksum and senseless content brings a ru
                     other.count += more;
                     other.numbers += std::string(more * size, ' ');
                 }));
-        if (entry.count > 1)
+        if (entry.count > 1 && entry.name != "case") // a case means the same without its last end of a line
             names_file(forged([&](ArchiveContent::Entry& other) {
                 other.count -= 1;
                 other.numbers.resize(other.count * size);
