@@ -81,10 +81,9 @@ void for_held_bonds(Model& model, std::size_t point, Set&& set)
 }
 
 /// Sets the point variables of every bond from those of its point.
-void distribute_point_variables(Model& model)
+void distribute_point_variables(Model& model, const EndStates& states)
 {
     const std::vector<std::vector<std::size_t>> of_point = point_rows(model);
-    const EndStates states(model.state, model.neighbourhood);
 #pragma omp parallel for schedule(dynamic, 64)
     for (std::size_t i = 0; i < model.size(); ++i)
         for_held_bonds(model, i, [&](std::uint32_t neighbour, double* bond) {
@@ -160,7 +159,7 @@ void collect_point_variables(Model& model, const ForceState& force_state)
                 value += weights[b] * model.bond_state(i, b)[r * pack_width];
         }
     }
-    distribute_point_variables(model);
+    distribute_point_variables(model, EndStates(model.state, model.neighbourhood));
 }
 
 namespace {
@@ -315,7 +314,7 @@ void refresh_families(Model& model, const ForceState& force_state, std::span<con
             });
     }
     failure.rethrow();
-    distribute_point_variables(model);
+    distribute_point_variables(model, at_ends);
     model.gather_ends();
     follow_occupied_volume(model, families_before);
 }
