@@ -5,6 +5,7 @@
 // point (material_law.hpp) and never meet this.
 #pragma once
 
+#include "periporo/material_response.hpp"
 #include "periporo/plugin.hpp"
 
 #include <algorithm>
@@ -25,12 +26,6 @@ struct StateVariable {
     /// A property of the place and not of a direction, as density is: the bonds of a point start from its one value
     /// whenever families are found anew, and hand their mean change back to it.
     bool of_point = false;
-};
-
-/// How a block of bonds is to be updated.
-enum class MaterialResponse {
-    full,   ///< the law itself
-    elastic ///< its isotropic elastic part only, state unchanged: for settling under gravity
 };
 
 /// A block of bonds for one update. A bond's data are rows of pack_width doubles: six of effective stress

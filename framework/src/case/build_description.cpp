@@ -170,7 +170,7 @@ StageDescription stage_of(const CheckedTable& table)
         stage.residual = until.real("residual");
         stage.damping = table.own.real("damping");
         stage.maximum_steps = table.own.integer("maximum_steps");
-        stage.response = choice_of<SettlingResponse>(table.own.text("response"));
+        stage.response = choice_of<MaterialResponse>(table.own.text("response"));
     } else {
         stage.duration = table.own.real("duration");
         stage.rest_speed = optional_real(until, "rest_speed");

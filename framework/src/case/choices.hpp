@@ -4,6 +4,8 @@
 // Choices of a case that are neither numbers nor plugins, with their names in case files.
 #pragma once
 
+#include "periporo/material_response.hpp"
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -28,8 +30,6 @@ enum class ImageKind { symmetry, periodic };
 /// How the motion of points is prescribed.
 enum class HeldKind { fixed, roller, moving };
 enum class StageType { quasi_static, dynamic };
-/// The response of materials while a stage settles.
-enum class SettlingResponse { elastic, full };
 
 /// Names of the values of an enum. A new value is added to the enum and here.
 template <class Choice>
@@ -76,9 +76,9 @@ struct ChoiceNames<StageType> {
                                       std::pair{StageType::dynamic, "dynamic"}};
 };
 template <>
-struct ChoiceNames<SettlingResponse> {
-    static constexpr std::array names{std::pair{SettlingResponse::elastic, "elastic"},
-                                      std::pair{SettlingResponse::full, "full"}};
+struct ChoiceNames<MaterialResponse> {
+    static constexpr std::array names{std::pair{MaterialResponse::elastic, "elastic"},
+                                      std::pair{MaterialResponse::full, "full"}};
 };
 
 /// All names of an enum, in their order.

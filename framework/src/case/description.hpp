@@ -158,7 +158,7 @@ struct StageDescription {
     double residual = 1e-3;                ///< |unbalanced force|/|gravity| to reach; dynamic: on the mean [-]
     double damping = 0.8;                  ///< quasi_static: coefficient of combined local damping [-]
     std::int64_t maximum_steps = 20000;    ///< quasi_static
-    SettlingResponse response = SettlingResponse::elastic; ///< quasi_static
+    MaterialResponse response = MaterialResponse::elastic; ///< quasi_static
     double duration = 0.0;                                 ///< dynamic [s]
     std::optional<double> rest_speed; ///< dynamic: ends early when all bodies have come to rest below it [m/s]
     std::vector<WaterChangeDescription> water_changes;

@@ -281,7 +281,7 @@ TableRules quasi_static_rules()
              .at_least(1)
              .by_default(StageDescription{}.maximum_steps),
          Parameter::text("response", "Material response while settling")
-             .one_of(choice_names<SettlingResponse>())
+             .one_of(choice_names<MaterialResponse>())
              .by_default(name_of(StageDescription{}.response))}};
     rules.planes = {"rollers"};
     rules.nested = {

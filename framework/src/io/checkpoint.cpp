@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be counted up whenever a checkpoint needs something that it did not hold before.
-const std::string format = "periporo checkpoint 12";
+const std::string format = "periporo checkpoint 13";
 /// The name of checkpoints up to format 7.
 constexpr const char* old_name = "checkpoint.h5";
 constexpr std::size_t longest_case = std::size_t{64} << 20; ///< [bytes]

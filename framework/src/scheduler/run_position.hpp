@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where a run stands in its stages.
+// The position of a run in its stages.
 #pragma once
 
 #include "case/description.hpp"
@@ -22,21 +22,17 @@ struct RunPosition {
     double time = 0.0;            ///< since the first dynamic stage began [s]
     double stage_start = 0.0;     ///< `time` when the stage began [s]
     double time_step = 0.0;       ///< [s]
-    double wall_seconds = 0.0;    ///< spent so far
     bool ledger_open = false;
     double error_before = 0.0;   ///< of the energy ledger when the last quasi-static stage ended [J]
     std::uint64_t estimates = 0; ///< of the stable step
     RestCriterion::State rest;   ///< of the stage
-    std::string stage_reports;   ///< JSON of the stages that are done
 
-    /// A position that was kept is in a stage that has begun, or behind one that has ended; behind the last one the
-    /// results are left to be merged.
+    /// The stage whose images and obstacles the model has: the present one, or the last one that ended.
     std::uint64_t stage_of_model() const { return begun || stage == 0 ? stage : stage - 1; }
 
     template <class Self, class Visit>
     static void members(Self& self, Visit& visit, std::size_t points)
     {
-        constexpr std::size_t longest_reports = std::size_t{64} << 20; // [bytes]
         visit("stage", self.stage);
         visit("begun", self.begun);
         visit("stage_step", self.stage_step);
@@ -44,12 +40,10 @@ struct RunPosition {
         visit("time", self.time);
         visit("stage_start", self.stage_start);
         visit("time_step", self.time_step);
-        visit("wall_seconds", self.wall_seconds);
         visit("ledger_open", self.ledger_open);
         visit("error_before", self.error_before);
         visit("estimates", self.estimates);
         visit.part("rest", self.rest, points);
-        visit("stage_reports", at_most(self.stage_reports, longest_reports));
     }
     /// @throws std::runtime_error when no run of these stages can stand there between two steps
     void check(const std::vector<StageDescription>& stages) const;

@@ -144,7 +144,7 @@ TEST_CASE("boundaries, contacts, stages and outputs keep their order and values"
     CHECK(read.stages[0].residual == 1e-4);
     CHECK(read.stages[0].damping == 0.7);
     CHECK(read.stages[0].maximum_steps == 100);
-    CHECK(read.stages[0].response == SettlingResponse::full);
+    CHECK(read.stages[0].response == MaterialResponse::full);
     CHECK(read.stages[1].duration == 0.5);
     CHECK(read.stages[1].rest_speed == 0.005);
     CHECK(read.stages[1].residual == 0.01);

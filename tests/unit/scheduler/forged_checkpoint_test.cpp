@@ -126,7 +126,7 @@ TEST_CASE("no checkpoint with a right checksum and senseless content brings a ru
     REQUIRE(sound.entries.size() > 50);
     REQUIRE(run.message(sound) == "");
     // Images of one more symmetry plane, and blanks behind a text.
-    const std::set<std::string> may_be_longer{"model/neighbourhood/images/isometries", "position/stage_reports",
+    const std::set<std::string> may_be_longer{"model/neighbourhood/images/isometries", "report/stages",
                                               "case"};
     for (std::size_t e = 0; e < sound.entries.size(); ++e) {
         const ArchiveContent::Entry& entry = sound.entries[e];
@@ -177,7 +177,7 @@ TEST_CASE("times that are no numbers, infinite or negative, and stages that are 
         std::memcpy(entry->numbers.data(), &value, sizeof(value));
         CHECK(run.message(content).find(checkpoint_name) != std::string::npos);
     };
-    for (const char* name : {"position/time", "position/stage_start", "position/time_step", "position/wall_seconds"})
+    for (const char* name : {"position/time", "position/stage_start", "position/time_step", "report/wall_seconds"})
         for (const double value :
              {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0})
             check_refused(name, value);
