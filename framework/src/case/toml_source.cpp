@@ -136,7 +136,8 @@ public:
         source->lines = split_lines(*text);
         if (const std::optional<DeepKey> deep = find_deep_key(*text)) {
             diagnostics_.error({source, deep->line, deep->column},
-                               fmt::format("a key has more than {} parts", most_key_parts));
+                               fmt::format("a key has more than {} parts", most_key_parts),
+                               "no key of a case has more than ten; look for a missing quote or bracket");
             return std::nullopt;
         }
         std::optional<CaseNode> own;

@@ -25,6 +25,17 @@ std::vector<boost::dll::shared_library>& loaded_libraries()
     return *libraries;
 }
 
+/// The text of the dynamic loader, out of the message of Boost.DLL around it.
+std::string reason_of(const std::string& message)
+{
+    constexpr std::string_view before = "dlerror system message: ";
+    const std::size_t begin = message.find(before);
+    const std::size_t end = message.rfind("): ");
+    if (begin == std::string::npos || end == std::string::npos || end < begin + before.size())
+        return message;
+    return message.substr(begin + before.size(), end - begin - before.size());
+}
+
 } // namespace
 
 const PluginDescriptor* load_descriptor(const std::filesystem::path& file)
@@ -33,7 +44,7 @@ const PluginDescriptor* load_descriptor(const std::filesystem::path& file)
     try {
         library.load(file, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const std::exception& error) {
-        throw std::runtime_error(fmt::format("cannot be loaded: {}", error.what()));
+        throw std::runtime_error(fmt::format("cannot be loaded: {}", reason_of(error.what())));
     }
     const boost::dll::shared_library& kept = loaded_libraries().emplace_back(std::move(library));
     if (!kept.has(plugin_symbol))

@@ -56,8 +56,21 @@ std::pair<std::string_view, std::string_view> heading(std::string_view cell)
     return {content_of(cell.substr(0, bracket)), content_of(cell.substr(bracket + 1, cell.size() - bracket - 2))};
 }
 
+/// "x [m], y [m] and volume [m3]", for a message.
+std::string names_of(const std::vector<CsvColumn>& columns)
+{
+    std::string names;
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        names += fmt::format("{}{} [{}]",
+                             c == 0                   ? ""
+                             : c + 1 < columns.size() ? ", "
+                                                      : " and ",
+                             columns[c].name, si_unit(columns[c].dimension));
+    return names;
+}
+
 Place find_column(const std::filesystem::path& file, std::size_t line, const std::vector<std::string_view>& header,
-                  const CsvColumn& wanted)
+                  const CsvColumn& wanted, const std::string& all)
 {
     std::optional<Place> found;
     for (std::size_t c = 0; c < header.size(); ++c) {
@@ -77,7 +90,9 @@ Place find_column(const std::filesystem::path& file, std::size_t line, const std
         found->unit = one.value;
     }
     if (!found)
-        refuse(file, line, fmt::format("the header names no column {} [{}]", wanted.name, si_unit(wanted.dimension)));
+        refuse(file, line,
+               fmt::format("the header names no column {} [{}]; the first line must name {}", wanted.name,
+                           si_unit(wanted.dimension), all));
     return *found;
 }
 
@@ -109,7 +124,7 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<Csv
             width = cells.size();
             try {
                 for (const CsvColumn& column : columns)
-                    places.push_back(find_column(file, line, cells, column));
+                    places.push_back(find_column(file, line, cells, column, names_of(columns)));
                 for (const std::string_view cell : cells)
                     if (std::ranges::find(columns, heading(cell).first, &CsvColumn::name) == columns.end())
                         table.unused.emplace_back(heading(cell).first);
@@ -119,7 +134,9 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<Csv
             continue;
         }
         if (cells.size() != width)
-            refuse(file, line, fmt::format("{} cells, and {} in the header", cells.size(), width));
+            refuse(file, line,
+                   fmt::format("{} cells, and {} in the header; every row needs a cell for each column", cells.size(),
+                               width));
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const std::optional<double> value = number(cells[places[c].column]);
             if (!value || !std::isfinite(*value))
@@ -133,7 +150,7 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<Csv
     if (stream.bad())
         refuse(file, 0, "cannot be read to its end");
     if (width == 0)
-        refuse(file, 0, "it has no header, which names its columns");
+        refuse(file, 0, fmt::format("it has no header; the first line must name {}", names_of(columns)));
     return table;
 }
 

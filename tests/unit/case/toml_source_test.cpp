@@ -101,6 +101,7 @@ TEST_CASE("keys of thousands of parts are an error at their place, however they 
             REQUIRE(error.diagnostics().size() == 1);
             CHECK(error.diagnostics()[0].line == 2);
             CHECK(error.diagnostics()[0].message == "a key has more than 32 parts");
+            CHECK(error.diagnostics()[0].hint != "");
         }
     }
 }

@@ -182,7 +182,8 @@ TEST_CASE("a spacing that differs from the cube root of the median volume by mor
 
 TEST_CASE("a header without a column, or with one twice, is an error that shows it")
 {
-    test::check_mentions(error_of_csv("x,y,volume\n0,0,1\n"), {"line 1: the header names no column z [m]"});
+    test::check_mentions(error_of_csv("x,y,volume\n0,0,1\n"),
+                         {"line 1: the header names no column z [m]", "must name x [m], y [m], z [m] and volume [m3]"});
     test::check_mentions(error_of_csv("x,y,z,x,volume\n0,0,0,0,1\n"), {"line 1: two columns are named x"});
     test::check_mentions(error_of_csv("0,0,0,1\n"), {"the header names no column x [m]"});
     test::check_mentions(error_of_csv("\n \n"), {"no header"});
@@ -190,7 +191,8 @@ TEST_CASE("a header without a column, or with one twice, is an error that shows 
 
 TEST_CASE("what is no number or no point in a CSV file is an error with its line")
 {
-    test::check_mentions(error_of_csv(three + "1,2,3\n"), {"line 5: 3 cells, and 4 in the header"});
+    test::check_mentions(error_of_csv(three + "1,2,3\n"),
+                         {"line 5: 3 cells, and 4 in the header", "a cell for each column"});
     test::check_mentions(error_of_csv(three + "\n1,2,three,1\n"), {"line 6: z is \"three\""});
     test::check_mentions(error_of_csv(three + "1,2,,1\n"), {"line 5: z is \"\""});
     test::check_mentions(error_of_csv(three + "1,2,3 m,1\n"), {"line 5: z is \"3 m\""});
