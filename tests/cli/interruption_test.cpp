@@ -170,10 +170,11 @@ TEST_CASE("a run that has done the steps of --stop-after already stops at once")
 TEST_CASE("SIGTERM, SIGINT, SIGHUP and the end of the processor time stop with a checkpoint at the next step")
 {
     const ProgramFolder folder;
-    for (const char* signal : {"TERM", "INT", "HUP", "XCPU"}) {
+    for (const std::string signal : {"TERM", "INT", "HUP", "XCPU"}) {
         CAPTURE(signal);
+        // The tests themselves may run under nohup.
         const int status =
-            shell(folder, "$program " + long_run + "--out " + signal +
+            shell(folder, "env --default-signal=HUP $program " + long_run + "--out " + signal +
                               " & pid=$!\n"
                               "while kill -0 $pid && [ ! -f " +
                               signal + "/checkpoint.bin ]; do :; done\nkill -s " + signal + " $pid\nwait $pid\n");
@@ -266,4 +267,5 @@ TEST_CASE("a run that is killed again and again ends at the same bits")
     CHECK(killed == kills);
     go_on(600.0);
     CHECK(complete > 0);
+    MESSAGE(killed, " kills of ", complete, " runs");
 }

@@ -30,6 +30,7 @@ void check_fault(int error, const std::string& below, long tries)
     whole.below = below;
     REQUIRE(whole.run_with_fault("none", 0).status == 0);
     const auto expected = whole.results();
+    long refused = 0;
     for (long call = 1; call <= whole.calls(); call += every_call() ? 1 : 1 + whole.calls() / tries) {
         CAPTURE(call);
         FaultyRun full;
@@ -38,7 +39,9 @@ void check_fault(int error, const std::string& below, long tries)
         INFO(failed.error);
         if (failed.status == 0) // what is left needs no room: deleting what only a resumed run would need
             continue;
+        ++refused;
         CHECK((failed.status == 1 || failed.status == 2)); // 2 when the folder cannot even be marked; never a signal
+        CAPTURE(std::strerror(error));
         CHECK(count(failed.error, std::strerror(error)) >= 1);
         CHECK(count(failed.error, "periporo: ") == 1);
         CHECK(failed.error.find("HDF5") == std::string::npos);
@@ -47,6 +50,7 @@ void check_fault(int error, const std::string& below, long tries)
         REQUIRE(rest.status == 0);
         check_same_results(full.results(), expected);
     }
+    MESSAGE(refused, " runs failed, ", below, ": ", std::strerror(error));
 }
 
 } // namespace
@@ -55,6 +59,12 @@ TEST_CASE("a full disk is told with the reason of the system, and the run goes o
 {
     for (const char* below : {"/results", "/history.csv", "/periporo.run", "/checkpoint"})
         check_fault(ENOSPC, below, 6);
+}
+
+TEST_CASE("a quota, a disk that becomes read-only, and one that fails are told with the reason of the system too")
+{
+    for (const int error : {EDQUOT, EROFS, EIO})
+        check_fault(error, "/results", 3);
 }
 
 TEST_CASE("a process without file handles says so, and its run can be resumed")
@@ -72,6 +82,7 @@ TEST_CASE(
         whole.checkpoint_every = "60 s";
         REQUIRE(whole.run_with_fault("none", 0).status == 0);
         const auto expected = whole.results();
+        long refused = 0;
         for (long call = 1; call <= whole.calls(); call += every_call() ? 1 : 1 + whole.calls() / 10) {
             CAPTURE(call);
             FaultyRun full;
@@ -81,11 +92,13 @@ TEST_CASE(
             INFO(failed.error);
             if (failed.status == 0)
                 continue;
+            ++refused;
             const ProgramResult rest = full.run("--resume");
             INFO(rest.error);
             REQUIRE(rest.status == 0);
             check_same_results(full.results(), expected);
         }
+        MESSAGE(refused, " runs failed, ", below);
     }
 }
 

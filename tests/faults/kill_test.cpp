@@ -46,6 +46,7 @@ TEST_CASE("a run that is killed at a call on its results, before it or in the mi
         REQUIRE(rest.status == 0);
         check_same_results(killed.results(), expected);
     }
+    MESSAGE(number, " kills");
 }
 
 TEST_CASE(
@@ -66,4 +67,5 @@ TEST_CASE(
         REQUIRE(rest.status == 0);
         check_same_results(killed.results(), expected);
     }
+    MESSAGE(2 * chosen(of_resume).size(), " kills");
 }

@@ -7,6 +7,7 @@
 #include "assembly/gravity_checks.hpp"
 #include "assembly/meeting_checks.hpp"
 #include "assembly/plane_checks.hpp"
+#include "assembly/surface_checks.hpp"
 #include "assembly/value_checks.hpp"
 #include "case/refusal.hpp"
 #include "contact/rigid_contact_surface.hpp"
@@ -281,6 +282,7 @@ std::vector<std::string> check_model(const BuiltModel& built, const CaseDescript
         check_overlaps(built.model, description, geometries, refusals, suspicions);
     std::ranges::copy(check_meetings(built, description), std::back_inserter(suspicions));
     check_planes(built, description, geometries, refusals, suspicions);
+    check_rigid_surfaces(built, description, refusals, suspicions);
     for (std::size_t c = 0; c < built.contacts.size(); ++c) {
         const std::string key = fmt::format("contact.{}", c);
         refusals.attempt(key, [&] { check_surface(built, description, c, suspicions); });

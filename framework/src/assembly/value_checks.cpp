@@ -17,6 +17,9 @@ namespace periporo {
 namespace {
 
 constexpr double earth = 9.80665;            ///< [m/s2]
+constexpr double weakest_gravity = 1e-3;     ///< of the earth's: asteroids have less [-]
+constexpr double highest_K0 = 5.0;           ///< of a heavily overconsolidated clay it is 2 to 3 [-]
+constexpr double loosest_soil = 0.95;        ///< porosity of peat and of diatomite is up to 0.9 [-]
 constexpr double strongest_centrifuge = 500; ///< geotechnical ones reach 300 times gravity [-]
 constexpr double lightest_solid = 50.0;      ///< grains of foam are lighter [kg/m3]
 constexpr double heaviest_solid = 23000.0;   ///< osmium has 22,600 [kg/m3]
@@ -36,6 +39,30 @@ void check_acceleration(const CaseDescription& description, Texts& suspicions)
                                        fmt::format("gravity is {:.4g} m/s2, {:.0f} times that of the earth, 9.81 m/s2; "
                                                    "no centrifuge for soil has that",
                                                    g, g / earth)));
+    if (g > 0.0 && g < weakest_gravity * earth)
+        suspicions.push_back(suspicion(description, "gravity",
+                                       fmt::format("gravity is {:.4g} m/s2, {:.1e} times that of the earth, 9.81 m/s2; "
+                                                   "leave it zero for none",
+                                                   g, g / earth)));
+}
+
+void check_initial_stress(const CaseDescription& description, const BodyDescription& body, Texts& suspicions)
+{
+    const InitialStressDescription& stress = body.initial_stress;
+    if (stress.kind == InitialStressKind::geostatic && stress.lateral_coefficient > highest_K0)
+        suspicions.push_back(suspicion(
+            description, fmt::format("body.{}.initial_stress", body.name),
+            fmt::format("K0 of body '{}' is {:.4g}; soils have 0.3 to 3", body.name, stress.lateral_coefficient)));
+}
+
+void check_porosity(const CaseDescription& description, const MaterialDescription& material, Texts& suspicions)
+{
+    if (material.porosity > loosest_soil)
+        suspicions.push_back(
+            suspicion(description, fmt::format("material.{}.porosity", material.name),
+                      fmt::format("the porosity of material '{}' is {:.4g}: nearly all of it is pores; "
+                                  "soils have 0.2 to 0.6, peat up to 0.9",
+                                  material.name, material.porosity)));
 }
 
 void check_density(const CaseDescription& description, const MaterialDescription& material, Texts& suspicions)
@@ -204,6 +231,19 @@ void check_fall(const BuiltModel& built, const CaseDescription& description, con
     }
 }
 
+/// A speed of rest above every speed of a fall through the model ends a stage as soon as it may end.
+void check_rest_speeds(const CaseDescription& description, double height, Texts& suspicions)
+{
+    const double fall = std::sqrt(2.0 * description.gravity.norm() * height);
+    for (std::size_t s = 0; s < description.stages.size() && fall > 0.0; ++s)
+        if (const std::optional<double>& speed = description.stages[s].rest_speed; speed && *speed > fall)
+            suspicions.push_back(suspicion(
+                description, fmt::format("stage.{}.until.rest_speed", s),
+                fmt::format("stage '{}' counts everything below {:.4g} m/s as at rest, and a fall through the "
+                            "height of the model ends at {:.4g} m/s; a hundredth of that is usual",
+                            description.stages[s].name, *speed, fall)));
+}
+
 void check_residuals(const CaseDescription& description, Texts& suspicions)
 {
     for (std::size_t s = 0; s < description.stages.size(); ++s) {
@@ -227,6 +267,10 @@ void check_values(const BuiltModel& built, const CaseDescription& description, R
     check_acceleration(description, suspicions);
     for (const MaterialDescription& material : description.materials)
         check_density(description, material, suspicions);
+    for (const MaterialDescription& material : description.materials)
+        check_porosity(description, material, suspicions);
+    for (const BodyDescription& body : description.bodies)
+        check_initial_stress(description, body, suspicions);
     std::vector<std::string> told;
     for (std::size_t b = 0; b < extents.size(); ++b) {
         const BodyDescription& body = description.bodies[b];
@@ -241,6 +285,12 @@ void check_values(const BuiltModel& built, const CaseDescription& description, R
     for (std::size_t c = 0; c < built.contacts.size(); ++c)
         check_contact(built, description, c, extents, suspicions);
     check_fall(built, description, extents, suspicions);
+    double lowest = extents.front().least, highest = extents.front().most;
+    for (const Extent& extent : extents) {
+        lowest = std::min(lowest, extent.least);
+        highest = std::max(highest, extent.most);
+    }
+    check_rest_speeds(description, highest - lowest + built.model.state.spacing, suspicions);
     check_residuals(description, suspicions);
 }
 

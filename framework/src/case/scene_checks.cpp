@@ -46,6 +46,9 @@ void check_names_in_list(const CheckedTable& table, const std::string& key, cons
     const auto* list = value_of<Texts>(table, key);
     if (list == nullptr)
         return;
+    if (list->empty())
+        diagnostics.error(table.place_of(key), fmt::format("'{}' names no {}", key, word.one),
+                          fmt::format("leave '{}' out for all {}, or name some", key, word.many));
     for (std::size_t i = 0; i < list->size(); ++i)
         if (!contains(known, (*list)[i]))
             diagnostics.error(table.members.at(key)[i], fmt::format("there is no {} '{}'", word.one, (*list)[i]),
