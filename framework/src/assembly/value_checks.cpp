@@ -17,7 +17,7 @@ namespace periporo {
 namespace {
 
 constexpr double earth = 9.80665;            ///< [m/s2]
-constexpr double weakest_gravity = 1e-3;     ///< of the earth's: asteroids have less [-]
+constexpr double weakest_gravity = 2e-3;     ///< of the earth's: asteroids have less [-]
 constexpr double highest_K0 = 5.0;           ///< of a heavily overconsolidated clay it is 2 to 3 [-]
 constexpr double loosest_soil = 0.95;        ///< porosity of peat and of diatomite is up to 0.9 [-]
 constexpr double strongest_centrifuge = 500; ///< geotechnical ones reach 300 times gravity [-]
