@@ -7,7 +7,7 @@
 #include "case/reader.hpp"
 #include "io/archive.hpp"
 #include "io/checkpoint.hpp"
-#include "io/run_folder.hpp"
+#include "io/folder_error.hpp"
 #include "plugins/registry.hpp"
 
 #include <fmt/format.h>

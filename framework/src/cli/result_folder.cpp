@@ -5,6 +5,7 @@
 #include "cli/result_folder.hpp"
 
 #include "cli/exit_status.hpp"
+#include "io/run_folder.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,7 +4,7 @@
 // Keeps one run from writing into the results of another, or over files of somebody else.
 #pragma once
 
-#include "io/run_folder.hpp"
+#include "io/folder_lock.hpp"
 
 #include <filesystem>
 #include <string>

@@ -8,6 +8,8 @@
 #include "cli/result_folder.hpp"
 #include "io/case_difference.hpp"
 #include "io/checkpoint.hpp"
+#include "io/folder_error.hpp"
+#include "io/folder_lock.hpp"
 #include "io/run_folder.hpp"
 #include "periporo/file.hpp"
 #include "scheduler/earlier_results.hpp"

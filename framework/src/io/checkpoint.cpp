@@ -5,7 +5,7 @@
 #include "io/checkpoint.hpp"
 
 #include "io/case_difference.hpp"
-#include "io/run_folder.hpp"
+#include "io/folder_error.hpp"
 #include "periporo/file.hpp"
 
 #include <fcntl.h>

@@ -1,33 +1,28 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
+// Tells the files of a run from those of somebody else.
 #include "io/run_folder.hpp"
 
 #include "io/checkpoint.hpp"
+#include "io/folder_error.hpp"
+#include "io/run_mark.hpp"
 #include "periporo/file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <set>
 #include <string_view>
-#include <utility>
 
 namespace periporo {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view mark_begin = "A run of periporo writes into this folder; the last one was process ";
 
 constexpr const char* parts_folder = "results.parts";
 
@@ -44,24 +39,6 @@ constexpr std::array known_names{checkpoint_name,
                                  "history.csv.journal",
                                  "run.log",
                                  "case.toml"};
-
-/// Opens a file to be read; the stream stays closed for everything else, since opening a pipe would wait for ever.
-std::ifstream open_if_regular(const fs::path& file)
-{
-    std::error_code ignored;
-    return fs::is_regular_file(fs::symlink_status(file, ignored)) ? std::ifstream(file) : std::ifstream();
-}
-
-std::string first_line(std::uint64_t process)
-{
-    return fmt::format("{}{:20}\n", mark_begin, process); // of fixed length: it is written again in its place
-}
-
-bool is_plain(const std::string& name)
-{
-    return !name.empty() && name.find('/') == std::string::npos && name != "." && name != ".." && name != run_mark &&
-           name.find_first_of("\n\r") == std::string::npos;
-}
 
 /// A name without what was added to it while a file was written or when it was found damaged.
 std::string without_additions(std::string name)
@@ -84,13 +61,8 @@ std::string without_additions(std::string name)
 /// Names that every run makes, and those that a mark lists.
 std::set<std::string> noted_names(const fs::path& folder)
 {
-    std::set<std::string> names(known_names.begin(), known_names.end());
-    std::ifstream mark = open_if_regular(folder / run_mark);
-    std::string line;
-    std::getline(mark, line);
-    while (std::getline(mark, line))
-        if (is_plain(line) && !mark.eof()) // a kill may have cut the last line
-            names.insert(line);
+    std::set<std::string> names = names_in_mark(folder / run_mark);
+    names.insert(known_names.begin(), known_names.end());
     return names;
 }
 
@@ -171,138 +143,14 @@ bool is_run_log(const fs::path& file)
            });
 }
 
-[[noreturn]] void throw_in_use(const fs::path& folder)
-{
-    std::ifstream mark = open_if_regular(folder / run_mark);
-    std::string line;
-    std::getline(mark, line);
-    std::string process = line.size() > mark_begin.size() ? line.substr(mark_begin.size()) : "of unknown number";
-    process.erase(0, process.find_first_not_of(' '));
-    throw FolderError(fmt::format("another run writes into {}: process {}; wait for its end, or choose another --out",
-                                  folder.string(), process));
-}
-
-/// Locks an open mark. Where the file system has no locks the run goes on without.
-bool lock(int descriptor)
-{
-    while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-        if (errno == EWOULDBLOCK)
-            return false;
-        if (errno != EINTR)
-            return true;
-    }
-    return true;
-}
-
-/// Is the open file the one that has this name?
-bool is_file(int descriptor, const fs::path& name)
-{
-    struct stat open, named;
-    return ::fstat(descriptor, &open) == 0 && ::lstat(name.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
-           open.st_dev == named.st_dev;
-}
-
 } // namespace
-
-FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder))
-{
-    std::error_code error;
-    made_folder_ = fs::create_directories(folder_, error);
-    if (error)
-        throw FolderError(FileError("cannot make the folder", folder_, error.value()).what());
-    try {
-        lock_folder();
-        lock_mark();
-    } catch (...) {
-        close();
-        throw;
-    }
-}
-
-void FolderLock::lock_folder()
-{
-    directory_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (directory_ < 0)
-        throw FolderError(FileError("cannot read", folder_, errno).what());
-    if (!lock(directory_))
-        throw_in_use(folder_);
-}
-
-void FolderLock::lock_mark()
-{
-    const fs::path mark = folder_ / run_mark;
-    try {
-        require_regular(mark);
-    } catch (const std::exception& error) {
-        throw FolderError(error.what());
-    }
-    do {
-        if (mark_ >= 0)
-            ::close(mark_);
-        mark_ = ::open(mark.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-        if (mark_ < 0)
-            throw FolderError(FileError("cannot write", mark, errno).what());
-        if (!lock(mark_))
-            throw_in_use(folder_);
-    } while (!is_file(mark_, mark)); // a run that ended just now deleted the file that was opened
-    const std::string line = first_line(static_cast<std::uint64_t>(::getpid()));
-    for (std::size_t done = 0; done < line.size();) { // the call after a short one has the reason
-        const ssize_t count = ::pwrite(mark_, line.data() + done, line.size() - done, static_cast<off_t>(done));
-        if (count < 0 && errno != EINTR)
-            throw FolderError(FileError("cannot write", mark, errno).what());
-        done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
-    }
-}
-
-void FolderLock::close() noexcept
-{
-    for (int* descriptor : {&mark_, &directory_})
-        if (const int number = std::exchange(*descriptor, -1); number >= 0)
-            ::close(number); // frees the lock
-}
-
-FolderLock::~FolderLock()
-{
-    if (mark_ < 0)
-        return;
-    try {
-        if (names_in(folder_) == std::vector<std::string>{run_mark}) { // nothing was written after all
-            ::unlink((folder_ / run_mark).c_str());
-            if (made_folder_)
-                ::rmdir(folder_.c_str());
-        }
-    } catch (const std::exception&) { // a folder that cannot be read, or is gone, is left as it is
-    }
-    close();
-}
-
-FolderLock::FolderLock(FolderLock&& other) noexcept
-    : folder_(std::move(other.folder_)), made_folder_(other.made_folder_),
-      directory_(std::exchange(other.directory_, -1)), mark_(std::exchange(other.mark_, -1))
-{
-}
-
-void require_no_run_in(const fs::path& folder)
-{
-    const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const int mark = ::open((folder / run_mark).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    const bool free = (directory < 0 || lock(directory)) && (mark < 0 || lock(mark));
-    for (const int descriptor : {directory, mark})
-        if (descriptor >= 0)
-            ::close(descriptor);
-    if (!free)
-        throw_in_use(folder);
-}
 
 bool holds_run(const fs::path& folder)
 {
-    std::ifstream mark = open_if_regular(folder / run_mark);
-    std::string line;
-    std::getline(mark, line);
-    std::error_code ignored;
-    if (line.starts_with(mark_begin) || (fs::exists(folder / run_mark, ignored) && line.empty()))
+    if (is_run_mark(folder / run_mark))
         return true;
-    // Of an earlier version, or somebody has deleted the mark.
+    // A run of an earlier version has no mark, and somebody may delete one.
+    std::error_code ignored;
     return is_run_log(folder / "run.log") && fs::is_regular_file(folder / "case.toml", ignored);
 }
 
@@ -422,7 +270,7 @@ void note_names(const fs::path& folder, const std::vector<std::string>& names, b
     const std::set<std::string> noted = noted_names(folder);
     std::string lines;
     for (const std::string& name : names) {
-        if (!is_plain(name))
+        if (!is_plain_name(name))
             throw FolderError(fmt::format("a writer names \"{}\" as a file of its own, which is no plain name", name));
         if (noted.contains(name))
             continue;
@@ -434,7 +282,7 @@ void note_names(const fs::path& folder, const std::vector<std::string>& names, b
     }
     const fs::path mark = folder / run_mark;
     if (!fs::exists(mark))
-        write_whole(mark, first_line(static_cast<std::uint64_t>(::getpid())));
+        write_whole(mark, first_line_of_mark(static_cast<std::uint64_t>(::getpid())));
     if (lines.empty())
         return;
     AppendedFile file(mark);

@@ -1,67 +1,14 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The mark of a folder that holds a run: the lock of the run in progress, and the names of what runs wrote into it.
+// The files in a folder that belong to a run, and those of somebody else.
 #pragma once
 
-#include <exception>
 #include <filesystem>
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace periporo {
-
-/// The file that marks a folder of a run. Its first line names the process that wrote into the folder last; a line for
-/// each file or folder follows that a writer of a run makes there. The system locks it, and the folder itself, while a
-/// run goes on, and frees both at the end of the process by any cause.
-inline constexpr const char* run_mark = "periporo.run";
-
-/// A folder that a run cannot write to: the user chooses another one.
-class FolderError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
-/// Runs `action`, which prepares a folder before the first step: any error but want of memory becomes FolderError.
-template <class Action>
-void as_fault_of_folder(Action&& action)
-{
-    try {
-        action();
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw FolderError(error.what());
-    }
-}
-
-/// Holds the lock of a folder, also when somebody deletes the mark. A folder in which nothing was written is left as it
-/// was found.
-class FolderLock {
-public:
-    /// Makes the folder and its mark where they are missing, and locks it.
-    /// @throws FolderError with the number of the process when another run holds the lock, or with the system's reason
-    /// when the folder cannot be written
-    explicit FolderLock(std::filesystem::path folder);
-    ~FolderLock();
-    FolderLock(FolderLock&& other) noexcept;
-    FolderLock& operator=(FolderLock&&) = delete;
-
-private:
-    void lock_folder();
-    void lock_mark();
-    void close() noexcept;
-
-    std::filesystem::path folder_;
-    bool made_folder_ = false;
-    int directory_ = -1; ///< descriptor of the folder
-    int mark_ = -1;      ///< descriptor of its mark
-};
-
-/// Throws as the constructor of FolderLock when a run goes on in the folder. Changes nothing.
-void require_no_run_in(const std::filesystem::path& folder);
 
 /// Does the folder hold what a run of this program left behind, as far as it came?
 bool holds_run(const std::filesystem::path& folder);

@@ -4,7 +4,7 @@
 // Asks each writer of the case.
 #include "scheduler/earlier_results.hpp"
 
-#include "io/run_folder.hpp"
+#include "io/folder_error.hpp"
 #include "periporo/earlier_output.hpp"
 
 #include <exception>

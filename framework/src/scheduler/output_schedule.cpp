@@ -3,7 +3,7 @@
 //
 #include "scheduler/output_schedule.hpp"
 
-#include "io/run_folder.hpp"
+#include "io/folder_error.hpp"
 #include "periporo/earlier_output.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "scheduler/run.hpp"
 
 #include "io/checkpoint.hpp"
-#include "io/run_folder.hpp"
+#include "io/folder_error.hpp"
 #include "periporo/file.hpp"
 #include "scheduler/interruption.hpp"
 #include "scheduler/run_log.hpp"

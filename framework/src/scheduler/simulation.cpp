@@ -11,6 +11,7 @@
 #include "assembly/stiffness_checks.hpp"
 #include "case/refusal.hpp"
 #include "io/checkpoint.hpp"
+#include "io/folder_error.hpp"
 #include "io/provenance.hpp"
 #include "io/run_folder.hpp"
 #include "operator/refresh.hpp"
