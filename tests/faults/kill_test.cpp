@@ -67,5 +67,5 @@ TEST_CASE(
         REQUIRE(rest.status == 0);
         check_same_results(killed.results(), expected);
     }
-    MESSAGE(2 * chosen(of_resume).size(), " kills");
+    MESSAGE(std::to_string(2 * chosen(of_resume).size()), " kills");
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Fuzz target: the entries of a checkpoint, behind a right mark and before a right checksum.
-#include "fuzz_input.hpp"
 #include "io/archive.hpp"
+#include "fuzz_input.hpp"
 #include "support/archives.hpp"
 
 #include <boost/crc.hpp>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Fuzz target: a case file, from its text to its description. Its plugins are stand-ins that take parameters.
+#define DOCTEST_CONFIG_DISABLE // the stand-ins are those of tests
 #include "fuzz_input.hpp"
 #include "unit/case/case_support.hpp"
 

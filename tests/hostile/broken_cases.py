@@ -104,7 +104,9 @@ def broken_values(case: dict, is_valid: Callable[[dict], bool]) -> Iterator[Brok
         if not unit and not is_number:
             continue
         suffix = f" {unit[1]}" if unit else ""
-        for other in ("3 mol", "3", "3 K/m") if unit else ("3 mm",):
+        # An angle is a number too, and so is a length of one unit of a mesh.
+        is_angle = unit is not None and unit[1] in ("deg", "rad")
+        for other in ("3 mol", "3 K/m") if is_angle or not unit else ("3 mol", "3", "3 K/m"):
             yield broken("another unit", keys, other)
         for number in ("nan", "inf", "-inf"):
             yield broken("not finite", keys, f"{number}{suffix}" if unit else float(number))

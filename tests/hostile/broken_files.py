@@ -129,8 +129,9 @@ def _damages(data: bytes, dice: random.Random) -> Iterator[tuple[str, str, bytes
         numbers = list(_NUMBER.finditer(data))
         for value in (b"nan", b"inf", b"1e300", b"-1", b"abc", b"", b"99999999999999999999", b"2147483648", b"0"):
             for number in dice.sample(numbers, min(12, len(numbers))):
+                normal = data.rfind(b"facet normal", 0, number.start()) > data.rfind(b"\n", 0, number.start())  # not read
                 content = data[:number.start()] + value + data[number.end():]
-                yield "number replaced", f"{number[0].decode()} at {number.start()} by {value.decode()!r}", content, value in (b"nan", b"inf", b"abc")
+                yield "number replaced", f"{number[0].decode()} at {number.start()} by {value.decode()!r}", content, not normal and value in (b"nan", b"inf", b"abc")
     for _ in range(12):
         at = dice.randrange(1, len(data))
         yield "truncated", f"at {at}", data[:at], False

@@ -144,8 +144,11 @@ void check_gravity(const BuiltModel& built, const CaseDescription& description, 
             if (stage.kind == StageType::quasi_static)
                 throw refusal(description, fmt::format("stage.{}", s), what + ": it never comes to rest", way_out);
             if (is_left_to_gravity(built, description, b))
-                throw refusal(description, "gravity", what + ", and it falls away from the surfaces that it is given",
-                              way_out);
+                throw refusal(description,
+                              description.places.contains("gravity")
+                                  ? "gravity"
+                                  : "body." + built.model.state.bodies[b].name + ".geometry",
+                              what + ", and it falls away from the surfaces that it is given", way_out);
             suspicions.push_back(suspicion(description, fmt::format("stage.{}", s), what + ": it falls freely"));
             told[b] = true;
         }

@@ -24,6 +24,7 @@ constexpr double most_points = 2e9; ///< points and their images are counted in 
 /// Old and new families at once: blocks of 15,600 points take 1.4 (energy_conjugate) to 1.7 times (bond_projection)
 /// what Model::memory tells.
 constexpr double peak_over_kept = 1.7;
+constexpr double longest_body = 1e7; ///< along an axis [spacings]
 constexpr double part_to_use = 0.95; ///< of the memory that is available
 
 /// Points of a cubic lattice within a radius in spacings, without the one in the middle.
@@ -90,6 +91,17 @@ double left_by_group()
     return left;
 }
 
+/// A volume that is counted takes for ever when the geometry is endless. @throws std::runtime_error
+void require_sensible_extent(const Bounds& bounds, double spacing)
+{
+    const double longest = (bounds.upper - bounds.lower).maxCoeff();
+    if (longest > longest_body * spacing)
+        throw std::runtime_error(
+            fmt::format("the box around it is {:.4g} m long, {:.3g} spacings; is the spacing, or a "
+                        "unit of the geometry, wrong?",
+                        longest, longest / spacing));
+}
+
 } // namespace
 
 double bytes_of_a_point(const std::string& force_state, double bonds, std::size_t state_variables)
@@ -113,6 +125,7 @@ SizeEstimate estimate_size(const CaseDescription& description, const PluginRegis
         const BodyDescription& body = description.bodies[b];
         refusals.attempt("body." + body.name + ".geometry", [&] {
             const std::shared_ptr<const Geometry> geometry = geometries.of_body(b);
+            require_sensible_extent(geometry->bounds(), description.discretization.spacing);
             const double points = geometry->volume() / cell * kept_part(description, geometry->bounds());
             size.points_of_bodies.push_back(points);
             size.points += points;

@@ -244,7 +244,7 @@ std::string fitting_spacing(const Geometry& geometry, double spacing, const Latt
         if (!Filling(geometry, Lattice(frame, finer)).is_empty())
             return fmt::format("; a spacing of {:.6g} m would give some", finer);
     }
-    return {};
+    return "; give a smaller spacing, a larger body or another place";
 }
 
 /// Brings the sum of the volumes to the given one.

@@ -57,9 +57,9 @@ TEST_CASE("the law passes the contact kit")
 {
     // Momentum, energy, damping, pull, collisions in the steps of a run, the rigid surface, and the parameters.
     for (const double damping_ratio : {0.0, 0.2, 1.0}) {
-        const Parameters parameters = kit::parameters_of(
-            lab::MyPlugin::parameters(),
-            {{"stiffness", stiffness}, {"damping_ratio", damping_ratio}, {"friction", 0.3}});
+        const Parameters parameters =
+            kit::parameters_of(lab::MyPlugin::parameters(),
+                               {{"stiffness", stiffness}, {"damping_ratio", damping_ratio}, {"friction", 0.3}});
         for (const std::string& fault : kit::check_contact_law<lab::MyPlugin>(parameters))
             FAIL_CHECK(fault);
     }
