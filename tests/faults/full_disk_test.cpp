@@ -41,7 +41,7 @@ void check_fault(int error, const std::string& below, long tries)
             continue;
         ++refused;
         CHECK((failed.status == 1 || failed.status == 2)); // 2 when the folder cannot even be marked; never a signal
-        CAPTURE(std::strerror(error));
+        CAPTURE(std::string(std::strerror(error)));
         CHECK(count(failed.error, std::strerror(error)) >= 1);
         CHECK(count(failed.error, "periporo: ") == 1);
         CHECK(failed.error.find("HDF5") == std::string::npos);
@@ -50,7 +50,7 @@ void check_fault(int error, const std::string& below, long tries)
         REQUIRE(rest.status == 0);
         check_same_results(full.results(), expected);
     }
-    MESSAGE(refused, " runs failed, ", below, ": ", std::strerror(error));
+    MESSAGE(refused, " runs failed, ", below, ": ", std::string(std::strerror(error)));
 }
 
 } // namespace
@@ -98,7 +98,7 @@ TEST_CASE(
             REQUIRE(rest.status == 0);
             check_same_results(full.results(), expected);
         }
-        MESSAGE(refused, " runs failed, ", below);
+        MESSAGE(refused, " runs failed, ", std::string(below));
     }
 }
 
