@@ -35,14 +35,38 @@ bool is_finite(const MeshPoint& point)
     return vector(point).allFinite();
 }
 
+/// CGAL's reader of PLY goes astray at a property without an element before it, so the header is read first. Each line
+/// of it begins with one of these words.
+void check_ply_header(const FacetFile& file)
+{
+    constexpr std::array known{"ply", "format", "comment", "obj_info", "element", "property", "end_header"};
+    std::ifstream stream(file.path, std::ios::binary);
+    std::string line;
+    bool some_element = false;
+    for (std::size_t number = 1; std::getline(stream, line); ++number) {
+        std::string word;
+        std::istringstream(line) >> word;
+        if (word == "end_header")
+            return;
+        if (!word.empty() && std::ranges::find(known, word) == known.end())
+            file.refuse(fmt::format("line {} of the header of a .ply file begins with no word of one", number));
+        some_element = some_element || word == "element";
+        if (word == "property" && !some_element)
+            file.refuse(fmt::format("line {} has a property and no element before it", number));
+    }
+    file.refuse("the header of a .ply file must end with end_header");
+}
+
 bool read(const std::string& format, FacetFile& file)
 {
     if (format == ".stl")
         return CGAL::IO::read_STL(file.path, file.points, file.polygons);
     if (format == ".off")
         return CGAL::IO::read_OFF(file.path, file.points, file.polygons);
-    if (format == ".ply")
+    if (format == ".ply") {
+        check_ply_header(file);
         return CGAL::IO::read_PLY(file.path, file.points, file.polygons);
+    }
     if (format == ".obj")
         return CGAL::IO::read_OBJ(file.path, file.points, file.polygons);
     file.refuse("the ending of a file of facets must be .stl, .off, .ply or .obj");
