@@ -35,6 +35,29 @@ bool is_finite(const MeshPoint& point)
     return vector(point).allFinite();
 }
 
+/// CGAL makes room for as many points and facets as a header names. Each takes a byte of the file at least.
+void check_count(const FacetFile& file, double count, const char* what)
+{
+    if (count > static_cast<double>(std::filesystem::file_size(file.path)))
+        file.refuse(fmt::format("the header names {:.4g} {}, more than the file has bytes", count, what));
+}
+
+/// The counts of points and facets follow the word OFF and comments. A file in binary is not looked into.
+void check_off_header(const FacetFile& file)
+{
+    std::ifstream stream(file.path, std::ios::binary);
+    std::string line, text;
+    while (text.find_first_of("0123456789") == std::string::npos && std::getline(stream, line))
+        text += line.substr(0, line.find('#')) + ' ';
+    if (text.find("BINARY") != std::string::npos)
+        file.refuse("a .off file in binary is not read; store it as text, or as .ply or .stl");
+    std::istringstream counts(text.substr(std::min(text.find_first_of("0123456789"), text.size())));
+    double points = 0.0, facets = 0.0;
+    counts >> points >> facets;
+    check_count(file, points, "points");
+    check_count(file, facets, "facets");
+}
+
 /// CGAL's reader of PLY goes astray at a property without an element before it, so the header is read first. Each line
 /// of it begins with one of these words.
 void check_ply_header(const FacetFile& file)
@@ -44,8 +67,12 @@ void check_ply_header(const FacetFile& file)
     std::string line;
     bool some_element = false;
     for (std::size_t number = 1; std::getline(stream, line); ++number) {
-        std::string word;
-        std::istringstream(line) >> word;
+        std::istringstream words(line);
+        std::string word, name;
+        double count = 0.0;
+        words >> word >> name >> count;
+        if (word == "element")
+            check_count(file, count, "elements");
         if (word == "end_header")
             return;
         if (!word.empty() && std::ranges::find(known, word) == known.end())
@@ -61,8 +88,10 @@ bool read(const std::string& format, FacetFile& file)
 {
     if (format == ".stl")
         return CGAL::IO::read_STL(file.path, file.points, file.polygons);
-    if (format == ".off")
+    if (format == ".off") {
+        check_off_header(file);
         return CGAL::IO::read_OFF(file.path, file.points, file.polygons);
+    }
     if (format == ".ply") {
         check_ply_header(file);
         return CGAL::IO::read_PLY(file.path, file.points, file.polygons);

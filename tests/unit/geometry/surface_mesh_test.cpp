@@ -448,7 +448,12 @@ TEST_CASE("files that are cut off, empty or something else are refused")
         test::check_mentions(refusal(name, ""), {name});
     test::check_mentions(refusal("body.stl", "solid nothing\nendsolid nothing\n"), {"the file has no facets"});
     test::check_mentions(refusal("body.vtk", ""), {"body.vtk: ", "must be .stl, .off, .ply or .obj"});
-    test::check_mentions(refusal("body.off", "OFF\n4 99999999999999 0\n"), {"cannot be read"});
+    for (const std::string counts : {"4 99999999999999 0", "1869375844 4 0"})
+        test::check_mentions(refusal("body.off", "OFF\n# of points and facets\n" + counts + "\n0 0 0\n"),
+                             {"body.off: the header names", "more than the file has bytes"});
+    test::check_mentions(refusal("body.off", "OFF BINARY\n\x01\x02\x03"), {"in binary is not read"});
+    test::check_mentions(refusal("body.ply", "ply\nformat ascii 1.0\nelement vertex 1869375844\nend_header\n"),
+                         {"body.ply: the header names 1.869e+09 elements"});
     // CGAL 5.5 reads beyond its memory at these two.
     test::check_mentions(refusal("body.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n"),
                          {"line 3 has a property and no element before it"});
