@@ -20,6 +20,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -58,8 +59,25 @@ void check_off_header(const FacetFile& file)
     check_count(file, facets, "facets");
 }
 
-/// CGAL's reader of PLY goes astray at a property without an element before it, so the header is read first. Each line
-/// of it begins with one of these words.
+bool is_one_of(const std::string& word, std::initializer_list<const char*> words)
+{
+    return std::ranges::find(words, word) != words.end();
+}
+
+/// CGAL's reader of PLY takes the coordinates of a point for float or double.
+/// @param words of a line behind "property": type and name, or "list", two types and name
+void check_ply_property(const FacetFile& file, std::istringstream& words, std::size_t line)
+{
+    std::string type, name;
+    words >> type;
+    for (std::string word; words >> word;)
+        name = word;
+    if (is_one_of(name, {"x", "y", "z"}) && !is_one_of(type, {"float", "float32", "double", "float64"}))
+        file.refuse(fmt::format("line {}: the coordinate {} must be float or double", line, name));
+}
+
+/// CGAL's reader of PLY leaves its memory at a property without an element before it and at types that it does not
+/// convert, so the header is read first. Each line of it begins with one of these words.
 void check_ply_header(const FacetFile& file)
 {
     constexpr std::array known{"ply", "format", "comment", "obj_info", "element", "property", "end_header"};
@@ -80,6 +98,8 @@ void check_ply_header(const FacetFile& file)
         some_element = some_element || word == "element";
         if (word == "property" && !some_element)
             file.refuse(fmt::format("line {} has a property and no element before it", number));
+        if (std::istringstream property(line); word == "property" && property >> word)
+            check_ply_property(file, property, number);
     }
     file.refuse("the header of a .ply file must end with end_header");
 }

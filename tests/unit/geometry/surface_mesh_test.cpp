@@ -454,11 +454,15 @@ TEST_CASE("files that are cut off, empty or something else are refused")
     test::check_mentions(refusal("body.off", "OFF BINARY\n\x01\x02\x03"), {"in binary is not read"});
     test::check_mentions(refusal("body.ply", "ply\nformat ascii 1.0\nelement vertex 1869375844\nend_header\n"),
                          {"body.ply: the header names 1.869e+09 elements"});
-    // CGAL 5.5 reads beyond its memory at these two.
+    // CGAL 5.5 reads beyond its memory at these.
     test::check_mentions(refusal("body.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n"),
                          {"line 3 has a property and no element before it"});
     test::check_mentions(refusal("body.ply", "ply\nformat ascii 1.0\nenement vertex 4\nproperty float x\nend_header\n"),
                          {"line 3 of the header"});
+    for (const std::string type : {"int32", "list uchar float"})
+        test::check_mentions(
+            refusal("body.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty " + type + " y\nend_header\n0\n"),
+            {"line 4: the coordinate y must be float or double"});
 }
 
 TEST_CASE("facets of unknown or too few corners are refused with their number")

@@ -126,8 +126,7 @@ TEST_CASE("no checkpoint with a right checksum and senseless content brings a ru
     REQUIRE(sound.entries.size() > 50);
     REQUIRE(run.message(sound) == "");
     // Images of one more symmetry plane, and blanks behind a text.
-    const std::set<std::string> may_be_longer{"model/neighbourhood/images/isometries", "report/stages",
-                                              "case"};
+    const std::set<std::string> may_be_longer{"model/neighbourhood/images/isometries", "report/stages", "case"};
     for (std::size_t e = 0; e < sound.entries.size(); ++e) {
         const ArchiveContent::Entry& entry = sound.entries[e];
         CAPTURE(entry.name);
