@@ -222,7 +222,7 @@ FacetFile read_facets(const std::string& path)
     try {
         readable = read(format, file);
     } catch (const std::bad_alloc&) { // a count in the file that is far too large
-    } catch (const std::length_error&) {
+    } catch (const std::logic_error&) { // a length, or an assertion of CGAL
     }
     if (!readable)
         refuse_unreadable(file, format);
