@@ -221,7 +221,7 @@ FacetFile read_facets(const std::string& path)
     bool readable = false;
     try {
         readable = read(format, file);
-    } catch (const std::bad_alloc&) { // a count in the file that is far too large
+    } catch (const std::bad_alloc&) {   // a count in the file that is far too large
     } catch (const std::logic_error&) { // a length, or an assertion of CGAL
     }
     if (!readable)
