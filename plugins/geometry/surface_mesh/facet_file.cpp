@@ -8,6 +8,7 @@
 
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
+#include <CGAL/IO/OFF/File_header_OFF.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
 
@@ -43,20 +44,15 @@ void check_count(const FacetFile& file, double count, const char* what)
         file.refuse(fmt::format("the header names {:.4g} {}, more than the file has bytes", count, what));
 }
 
-/// The counts of points and facets follow the word OFF and comments. A file in binary is not looked into.
+/// Reads the header alone, as CGAL does.
 void check_off_header(const FacetFile& file)
 {
     std::ifstream stream(file.path, std::ios::binary);
-    std::string line, text;
-    while (text.find_first_of("0123456789") == std::string::npos && std::getline(stream, line))
-        text += line.substr(0, line.find('#')) + ' ';
-    if (text.find("BINARY") != std::string::npos)
-        file.refuse("a .off file in binary is not read; store it as text, or as .ply or .stl");
-    std::istringstream counts(text.substr(std::min(text.find_first_of("0123456789"), text.size())));
-    double points = 0.0, facets = 0.0;
-    counts >> points >> facets;
-    check_count(file, points, "points");
-    check_count(file, facets, "facets");
+    CGAL::File_header_OFF header;
+    if (!(stream >> header))
+        return; // the whole file is refused for the same reason
+    check_count(file, static_cast<double>(header.size_of_vertices()), "points");
+    check_count(file, static_cast<double>(header.size_of_facets()), "facets");
 }
 
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words)
@@ -86,20 +82,23 @@ void check_ply_header(const FacetFile& file)
     bool some_element = false;
     for (std::size_t number = 1; std::getline(stream, line); ++number) {
         std::istringstream words(line);
-        std::string word, name;
-        double count = 0.0;
-        words >> word >> name >> count;
-        if (word == "element")
-            check_count(file, count, "elements");
+        std::string word;
+        words >> word;
         if (word == "end_header")
             return;
         if (!word.empty() && std::ranges::find(known, word) == known.end())
             file.refuse(fmt::format("line {} of the header of a .ply file begins with no word of one", number));
-        some_element = some_element || word == "element";
         if (word == "property" && !some_element)
             file.refuse(fmt::format("line {} has a property and no element before it", number));
-        if (std::istringstream property(line); word == "property" && property >> word)
-            check_ply_property(file, property, number);
+        if (word == "property")
+            check_ply_property(file, words, number);
+        if (word != "element")
+            continue;
+        some_element = true;
+        std::string name;
+        double count = 0.0;
+        words >> name >> count;
+        check_count(file, count, "elements");
     }
     file.refuse("the header of a .ply file must end with end_header");
 }

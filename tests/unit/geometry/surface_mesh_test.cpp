@@ -448,10 +448,15 @@ TEST_CASE("files that are cut off, empty or something else are refused")
         test::check_mentions(refusal(name, ""), {name});
     test::check_mentions(refusal("body.stl", "solid nothing\nendsolid nothing\n"), {"the file has no facets"});
     test::check_mentions(refusal("body.vtk", ""), {"body.vtk: ", "must be .stl, .off, .ply or .obj"});
-    for (const std::string counts : {"4 99999999999999 0", "1869375844 4 0"})
-        test::check_mentions(refusal("body.off", "OFF\n# of points and facets\n" + counts + "\n0 0 0\n"),
-                             {"body.off: the header names", "more than the file has bytes"});
-    test::check_mentions(refusal("body.off", "OFF BINARY\n\x01\x02\x03"), {"in binary is not read"});
+    test::check_mentions(refusal("body.off", "OFF\n4 99999999999999 0\n"), {"cannot be read"});
+    const std::string binary_count = "OFF BINARY\n" + std::string("\x6f\x6c\x6c\x64\0\0\0\4\0\0\0\0", 12);
+    for (const std::string& header :
+         {std::string("OFF\n# of points and facets\n1869375844 4 0\n0 0 0\n"),
+          std::string("OFF\n4\n1869375844 0\n0 0 0\n"), std::string("4OFF\n1869375844 4 0\n0 0 0 1\n"), binary_count})
+        test::check_mentions(refusal("body.off", header),
+                             {"body.off: the header names 1.869e+09", "than the file has"});
+    test::check_mentions(refusal("body.off", "4OFF\n4 1 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 2\n"),
+                         {"body.off: "}); // a fourth coordinate of zero divides the others
     test::check_mentions(refusal("body.ply", "ply\nformat ascii 1.0\nelement vertex 1869375844\nend_header\n"),
                          {"body.ply: the header names 1.869e+09 elements"});
     // CGAL 5.5 reads beyond its memory at these.
