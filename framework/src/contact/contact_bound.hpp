@@ -6,10 +6,10 @@
 
 #include "contact/assignment.hpp"
 #include "model/model.hpp"
+#include "periporo/contact_slopes.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 
 namespace periporo {
 
@@ -27,33 +27,6 @@ struct ContactBound {
     Eigen::Matrix3d damping = Eigen::Matrix3d::Zero();   ///< [1/s]
     double sharpest = 0.0; ///< square of the largest angular frequency of one contact alone [1/s2]
 };
-
-struct ContactSlopes {
-    double stiffness; ///< [N/m]
-    double damping;   ///< [N s/m]
-};
-
-/// Spring and dashpot of a law at full overlap.
-/// @param pair masses and volumes; not approaching
-inline ContactSlopes slopes(const Contact& law, const ContactPair& pair)
-{
-    constexpr double slow = 1e-6; // [m/s]: the slope of the dashpot, however the law writes it
-    std::array<ContactPair, 2> pairs{pair, pair};
-    pairs[1].approach_speed = slow;
-    std::array<ContactResponse, 2> responses;
-    law.evaluate(pairs, responses);
-    return {responses[0].stiffness, (responses[1].force - responses[0].force) / slow};
-}
-
-/// Square of the angular frequency that a contact alone has for the step: with a dashpot of zeta above 1.25 that of the
-/// dashpot, c/m, whose force must not stop the pair within a step before its spring has acted [1/s2].
-inline double sharpness(const ContactPair& pair, const ContactSlopes& slopes)
-{
-    constexpr double part_of_dashpot = 0.4; // the restitution of zeta = 2 is then met as well as that of others
-    const double mass = reduced_mass(pair);
-    const double dashpot = part_of_dashpot * slopes.damping / mass;
-    return std::max(slopes.stiffness / mass, dashpot * dashpot);
-}
 
 /// @param mobility acceleration along the normal for 1 N [1/kg]
 inline void add(ContactBound& bound, const Vector3& normal, const ContactPair& pair, const ContactSlopes& slopes,

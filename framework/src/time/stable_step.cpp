@@ -185,7 +185,7 @@ StableStep stable_step(Model& model, const ForceState& force_state, ContactForce
 
 double contact_resolution(bool damped)
 {
-    return damped ? 0.3 : 0.8;
+    return damped ? damped_contact_resolution : 0.8;
 }
 
 double damped_limit(double frequency_squared, double damping_rate)

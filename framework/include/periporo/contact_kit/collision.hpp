@@ -5,6 +5,7 @@
 #pragma once
 
 #include "periporo/contact_kit/range.hpp"
+#include "periporo/contact_slopes.hpp"
 #include "periporo/kit/text.hpp"
 
 #include <algorithm>
@@ -14,18 +15,13 @@ namespace periporo::kit {
 
 namespace detail {
 
-constexpr double largest_angle = 0.3; ///< of a contact with dashpots in one step of a run, omega dt [-]
-
-constexpr double part_of_dashpot = 0.4; ///< of its rate c/m, that counts as a frequency for the step of a run [-]
-
 /// The outcome of a head-on collision.
 struct Collision {
     double speed = 0.0;       ///< of the approach [m/s]
     double restitution = 0.0; ///< speed after over speed before; 0 when the pair stays together [-]
 };
 
-/// A collision in leapfrog steps, as a run makes it. The step is that of the stiffest overlap, or of the strongest
-/// dashpot.
+/// A collision in the leapfrog steps of a run, see sharpness().
 /// @param depth   about how deep the pair presses, as a part of the way from touch to deepest overlap [-]
 /// @param phase   of the first touch in its step, 0 to 1 [-]
 inline Collision collide(const Contact& law, ContactPartner partner, const ContactRange& range, double depth,
@@ -36,19 +32,15 @@ inline Collision collide(const Contact& law, ContactPartner partner, const Conta
     const auto at = [&](double distance, double speed, double time_step) {
         return response_of(law, pair_of(range, partner, distance, speed, time_step));
     };
-    double stiffest = 0.0, strongest = 0.0; // spring [N/m] and dashpot [N s/m]
-    constexpr double slow = 1e-6;           // [m/s]: the slope of the dashpot, however the law writes it
-    for (const double distance : distances_of(law, partner)) {
-        stiffest = std::max(stiffest, at(distance, 0.0, 0.0).stiffness);
-        strongest = std::max(strongest, at(distance, slow, 0.0).damping_force / slow);
-    }
-    const double mass = reduced_mass(pair_of(range, partner, 0.0, 0.0));
+    const ContactPair full = pair_of(range, partner, 0.0, 0.0);
+    const double squared = sharpness(full, slopes(law, full));
+    const double mass = reduced_mass(full);
     const double energy = at(reach + depth * (deepest - reach), 0.0, 0.0).energy;
     Collision result;
-    if (!(stiffest > 0.0) || !(energy > 0.0))
+    if (!(squared > 0.0) || !(energy > 0.0))
         return result; // an adhesive law: it does not push at this depth
     result.speed = std::sqrt(2.0 * energy / mass);
-    const double step = largest_angle / std::max(std::sqrt(stiffest / mass), part_of_dashpot * strongest / mass);
+    const double step = damped_contact_resolution / std::sqrt(squared);
     double distance = reach + phase * result.speed * step;
     double approach = result.speed;
     constexpr int most_steps = 100000; // a soft touch takes long; a pair that stays together never ends
