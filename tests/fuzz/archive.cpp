@@ -6,8 +6,6 @@
 #include "fuzz_input.hpp"
 #include "support/archives.hpp"
 
-#include <boost/crc.hpp>
-
 namespace {
 
 /// A part with members of every kind.
@@ -42,7 +40,7 @@ std::string sound_archive()
     writer.part("part", Part{});
     writer.commit();
     std::string bytes = periporo::test::bytes_of(folder / "archive");
-    bytes.resize(bytes.size() - 4);
+    bytes.resize(bytes.size() - periporo::test::checksum_size);
     return bytes;
 }
 
@@ -54,17 +52,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace periporo;
     static const test::FuzzFile file("archive");
     static const std::string sound = sound_archive();
-    constexpr std::size_t mark = 23;
     std::string bytes = sound;
-    bytes.resize(std::max(bytes.size(), mark + size));
+    bytes.resize(std::max(bytes.size(), test::mark_size + size));
     for (std::size_t n = 0; n < size; ++n)
-        bytes[mark + n] = static_cast<char>(bytes[mark + n] ^ data[n]);
-    boost::crc_32_type checksum;
-    checksum.process_bytes(bytes.data(), bytes.size());
-    const std::uint32_t value = checksum.checksum();
-    bytes.append(reinterpret_cast<const char*>(&value), 4);
+        bytes[test::mark_size + n] = static_cast<char>(bytes[test::mark_size + n] ^ data[n]);
     return test::read_or_refuse([&] {
         Part part;
-        ArchiveReader(file.write(bytes)).part("part", part);
+        test::write_with_checksum(file.path(), bytes);
+        ArchiveReader(file.path()).part("part", part);
     });
 }

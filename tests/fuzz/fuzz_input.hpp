@@ -25,6 +25,7 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size)
 class FuzzFile {
 public:
     explicit FuzzFile(const std::string& name) : file_(folder_ / name) {}
+    const std::filesystem::path& path() const { return file_; }
     const std::filesystem::path& write(const std::string& content) const
     {
         std::ofstream(file_, std::ios::binary | std::ios::trunc) << content;

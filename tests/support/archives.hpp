@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace periporo::test {
@@ -42,6 +43,19 @@ inline void write_bytes(const std::filesystem::path& file, const std::string& by
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
 }
 
+/// Bytes of the mark that an archive begins with, and of the checksum that it ends with.
+inline constexpr std::size_t mark_size = 23, checksum_size = 4;
+
+/// Writes the bytes of an archive with the checksum that belongs to them behind.
+inline void write_with_checksum(const std::filesystem::path& file, std::string bytes)
+{
+    boost::crc_32_type checksum;
+    checksum.process_bytes(bytes.data(), bytes.size());
+    const std::uint32_t value = checksum.checksum();
+    bytes.append(reinterpret_cast<const char*>(&value), checksum_size);
+    write_bytes(file, bytes);
+}
+
 /// The content of an archive as a list of entries, in the order of the file.
 struct ArchiveContent {
     struct Entry {
@@ -56,7 +70,6 @@ struct ArchiveContent {
     explicit ArchiveContent(const std::filesystem::path& file)
     {
         const std::string bytes = bytes_of(file);
-        constexpr std::size_t mark_size = 23, checksum_size = 4;
         mark = bytes.substr(0, mark_size);
         for (std::size_t at = mark_size; at < bytes.size() - checksum_size;) {
             Entry entry = {static_cast<StoredKind>(bytes[at]), 0, "", ""};
@@ -81,11 +94,7 @@ struct ArchiveContent {
             bytes.append(reinterpret_cast<const char*>(&entry.count), 8);
             bytes += entry.name + entry.numbers;
         }
-        boost::crc_32_type checksum;
-        checksum.process_bytes(bytes.data(), bytes.size());
-        const std::uint32_t value = checksum.checksum();
-        bytes.append(reinterpret_cast<const char*>(&value), 4);
-        write_bytes(file, bytes);
+        write_with_checksum(file, std::move(bytes));
     }
 };
 
