@@ -15,12 +15,11 @@
 namespace periporo {
 namespace {
 
-constexpr double neighbouring = 1.1;      ///< distance of points beside each other in a lattice, at most [spacings]
-constexpr int places_between = 16;        ///< looked at on the way from a point to its neighbour
-constexpr std::size_t most_compared = 50; ///< points at which two surfaces are compared
-constexpr double same = 1e-6;             ///< distance of surfaces that are one [spacings]
+constexpr double neighbouring = 1.1; ///< distance of points beside each other in a lattice, at most [spacings]
+constexpr int places_between = 16;   ///< looked at on the way from a point to its neighbour
+constexpr double same = 1e-6;        ///< distance of surfaces that are one [spacings]
 
-/// Is a part of the way from one place to another inside the obstacle, and are both ends outside?
+/// Is a part of the way between two places inside the obstacle?
 bool cuts(const Obstacle& obstacle, const Vector3& from, const Vector3& to)
 {
     for (int n = 1; n < places_between; ++n) {
@@ -77,9 +76,8 @@ double distance_behind(const Model& model, std::uint32_t body, const RigidContac
                        const RigidContactSurface& second)
 {
     const double round_off = same * model.state.spacing;
-    const std::size_t stride = 1 + model.size() / most_compared;
     double behind = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t i = 0; i < model.size(); i += stride) {
+    for (std::size_t i = 0; i < model.size(); ++i) {
         Vector3 normal, other_normal;
         if (model.state.points.body[i] != body)
             continue;

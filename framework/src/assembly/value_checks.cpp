@@ -265,10 +265,10 @@ void check_values(const BuiltModel& built, const CaseDescription& description, R
     const Vector3 up = g > 0.0 ? Vector3(-description.gravity / g) : Vector3::UnitZ();
     const std::vector<Extent> extents = extents_of(built.model, up);
     check_acceleration(description, suspicions);
-    for (const MaterialDescription& material : description.materials)
+    for (const MaterialDescription& material : description.materials) {
         check_density(description, material, suspicions);
-    for (const MaterialDescription& material : description.materials)
         check_porosity(description, material, suspicions);
+    }
     for (const BodyDescription& body : description.bodies)
         check_initial_stress(description, body, suspicions);
     std::vector<std::string> told;

@@ -15,12 +15,13 @@
 
 namespace periporo {
 
-RunCheckpoints::RunCheckpoints(RunState& run, RunReport& report, const RunOptions& options)
-    : run_(run), report_(report), options_(options), last_(std::chrono::steady_clock::now())
+RunCheckpoints::RunCheckpoints(RunState& run, RunReport& report, const InputHashes& inputs, const RunOptions& options,
+                               spdlog::logger& log)
+    : run_(run), report_(report), inputs_(inputs), options_(options), log_(log), last_(std::chrono::steady_clock::now())
 {
 }
 
-void RunCheckpoints::restore(ArchiveReader& checkpoint, const InputHashes& inputs, spdlog::logger& log)
+void RunCheckpoints::restore(ArchiveReader& checkpoint)
 {
     constexpr std::size_t longest_inputs = std::size_t{64} << 20; // [bytes]
     std::string text;
@@ -28,7 +29,7 @@ void RunCheckpoints::restore(ArchiveReader& checkpoint, const InputHashes& input
     const InputHashes before = InputHashes::from_text(text);
     if (before.text() != text)
         throw ArchiveError(fmt::format("\"inputs\" in {} is no list of hashes", checkpoint.file().string()));
-    if (const std::string difference = inputs.difference_from(before); !difference.empty())
+    if (const std::string difference = inputs_.difference_from(before); !difference.empty())
         throw ForeignCheckpoint(fmt::format("{} cannot go on: {}; bring back the file as it was, or start anew with "
                                             "--overwrite",
                                             checkpoint.file().string(), difference));
@@ -37,11 +38,11 @@ void RunCheckpoints::restore(ArchiveReader& checkpoint, const InputHashes& input
     run_.outputs.expect_earlier(options_.directory, options_.without_lost);
     const RunPosition& at = run_.position;
     last_step_ = at.step;
-    log.info("resumed {} stage '{}' at step {}, time {:.6g} s",
-             at.stage == run_.description.stages.size() ? "behind"
-             : at.begun                                 ? "in"
-                                                        : "before",
-             run_.current_stage().name, at.step, at.time);
+    log_.info("resumed {} stage '{}' at step {}, time {:.6g} s",
+              at.stage == run_.description.stages.size() ? "behind"
+              : at.begun                                 ? "in"
+                                                         : "before",
+              run_.current_stage().name, at.step, at.time);
 }
 
 bool RunCheckpoints::due() const
@@ -51,33 +52,33 @@ bool RunCheckpoints::due() const
     return every == 0.0 || std::chrono::steady_clock::now() - last_ > interval;
 }
 
-void RunCheckpoints::write(const InputHashes& inputs)
+void RunCheckpoints::write()
 {
     const auto began = std::chrono::steady_clock::now();
     if (const std::string lost = lost_point(run_.model); !lost.empty())
         throw std::runtime_error(lost);
     run_.outputs.flush(run_.position.step);
-    store(inputs);
+    store();
     start_clock();
     took_ = last_ - began;
 }
 
-void RunCheckpoints::write_if_possible(const InputHashes& inputs, spdlog::logger& log)
+void RunCheckpoints::write_if_possible()
 {
     run_.outputs.flush(run_.position.step);
     try {
-        store(inputs);
+        store();
     } catch (const FileError& error) {
-        log.warn("{}; the run goes on, and the last checkpoint stays", error.what());
+        log_.warn("{}; the run goes on, and the last checkpoint stays", error.what());
     }
 }
 
-void RunCheckpoints::store(const InputHashes& inputs)
+void RunCheckpoints::store()
 {
     write_checkpoint(
         options_.directory, run_.description.resolved,
-        [&](ArchiveWriter& archive) {
-            archive("inputs", inputs.text());
+        [this](ArchiveWriter& archive) {
+            archive("inputs", inputs_.text());
             run_.save(archive);
             report_.save(archive);
         },

@@ -19,13 +19,15 @@ namespace periporo {
 
 class RunCheckpoints {
 public:
-    RunCheckpoints(RunState& run, RunReport& report, const RunOptions& options);
+    /// @param inputs hashes of the files that the run read; they may be set until the first use
+    RunCheckpoints(RunState& run, RunReport& report, const InputHashes& inputs, const RunOptions& options,
+                   spdlog::logger& log);
 
     /// Restores the run whose model was built from the same case and files.
     /// @throws ForeignCheckpoint when a file that the run read has changed since
     /// @throws ArchiveError when the content does not fit
     /// @throws FolderError when results are gone that the checkpoint counts on
-    void restore(ArchiveReader& checkpoint, const InputHashes& inputs, spdlog::logger& log);
+    void restore(ArchiveReader& checkpoint);
 
     /// The time to the next checkpoint counts from now.
     void start_clock() { last_ = std::chrono::steady_clock::now(); }
@@ -33,20 +35,22 @@ public:
     bool due() const;
     /// @throws FileError
     /// @throws std::runtime_error when a point is lost: such a state does not replace an earlier one
-    void write(const InputHashes& inputs);
+    void write();
     /// Writes a checkpoint that is not due by the clock. When the system refuses it, the run keeps the earlier one and
     /// continues with a warning.
-    void write_if_possible(const InputHashes& inputs, spdlog::logger& log);
+    void write_if_possible();
 
     /// Step of the last checkpoint, from which a resume continues; none: there is no checkpoint.
     std::optional<std::uint64_t> last_step() const { return last_step_; }
 
 private:
-    void store(const InputHashes& inputs);
+    void store();
 
     RunState& run_;
     RunReport& report_;
+    const InputHashes& inputs_;
     const RunOptions& options_;
+    spdlog::logger& log_;
     std::chrono::steady_clock::time_point last_;
     std::chrono::duration<double> took_{0.0}; ///< the last one
     std::optional<std::uint64_t> last_step_;

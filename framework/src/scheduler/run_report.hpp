@@ -30,9 +30,6 @@ public:
     /// Adds the stage that has just ended, and logs it.
     /// @param end why the stage ended
     void add_stage(const std::string& end, spdlog::logger& log);
-    /// Warns of contacts in which a point lay far too deep.
-    void warn_of_overlaps(spdlog::logger& log) const;
-
     void save(ArchiveWriter& archive) const;
     /// Restores the stages and the time so far, after the position of the run.
     /// @throws ArchiveError naming the file when its content is no report
@@ -45,6 +42,8 @@ public:
 
 private:
     double steps_per_second() const;
+    /// Warns of contacts in which a point lay far too deep.
+    void warn_of_overlaps(spdlog::logger& log) const;
 
     const RunState& run_;
     nlohmann::json stages_ = nlohmann::json::array();

@@ -32,7 +32,7 @@ Simulation::Simulation(const CaseDescription& description, const PluginRegistry&
                        InterruptionGuard& interruption, std::shared_ptr<spdlog::logger> log, Geometries* geometries)
     : description_(description), registry_(registry), options_(options), interruption_(interruption),
       log_(std::move(log)), progress_(options.quiet), state_(description, registry), stepper_(state_, progress_, *log_),
-      report_(state_), checkpoints_(state_, report_, options)
+      report_(state_), checkpoints_(state_, report_, inputs_, options, *log_)
 {
     Geometries own(description, registry);
     Geometries& known = geometries == nullptr ? own : *geometries;
@@ -75,7 +75,7 @@ void Simulation::prepare(std::optional<ArchiveReader> checkpoint)
 {
     resumed_ = checkpoint.has_value();
     if (resumed_)
-        checkpoints_.restore(*checkpoint, inputs_, *log_);
+        checkpoints_.restore(*checkpoint);
     refuse_failures(description_, "stage.0", [this] {
         if (!resumed_)
             begin_stage();
@@ -159,7 +159,7 @@ bool Simulation::run_stages()
 {
     RunPosition& at = state_.position;
     if (!resumed_)
-        checkpoints_.write(inputs_); // a later failure of the system costs no stage that has ended
+        checkpoints_.write(); // a later failure of the system costs no stage that has ended
     while (at.stage < description_.stages.size()) {
         const StageDescription& stage = description_.stages[at.stage];
         if (!at.begun)
@@ -173,7 +173,7 @@ bool Simulation::run_stages()
         if (at.stage < description_.stages.size() && !reason_to_stop().empty())
             return false;
         progress_.clear();
-        checkpoints_.write_if_possible(inputs_, *log_); // behind the last stage too: merging the results needs room
+        checkpoints_.write_if_possible(); // behind the last stage too: merging the results needs room
     }
     return true;
 }
@@ -307,7 +307,7 @@ void Simulation::end_stage()
 bool Simulation::stop_here()
 {
     if (checkpoints_.due())
-        state_.dynamics.times().time(Phase::output, [&] { checkpoints_.write(inputs_); });
+        state_.dynamics.times().time(Phase::output, [&] { checkpoints_.write(); });
     return !reason_to_stop().empty();
 }
 
@@ -324,7 +324,7 @@ RunOutcome Simulation::stop()
 {
     const RunPosition& at = state_.position;
     progress_.clear();
-    checkpoints_.write(inputs_);
+    checkpoints_.write();
     state_.outputs.finish(false);
     write_summary("interrupted", "");
     log_->warn("{} interrupted the run {} stage '{}' after {} steps, time {:.6g} s; --resume goes on from here",

@@ -84,8 +84,8 @@ private:
     RunState state_;
     StageStepper stepper_;
     RunReport report_;
-    RunCheckpoints checkpoints_;
     InputHashes inputs_;
+    RunCheckpoints checkpoints_;
     std::string stage_end_; ///< why the last stage ended
     std::vector<std::string> remarks_;
     bool resumed_ = false;

@@ -69,8 +69,9 @@ std::string names_of(const std::vector<CsvColumn>& columns)
     return names;
 }
 
+/// @param all columns of the table, for the message
 Place find_column(const std::filesystem::path& file, std::size_t line, const std::vector<std::string_view>& header,
-                  const CsvColumn& wanted, const std::string& all)
+                  const CsvColumn& wanted, const std::vector<CsvColumn>& all)
 {
     std::optional<Place> found;
     for (std::size_t c = 0; c < header.size(); ++c) {
@@ -92,7 +93,7 @@ Place find_column(const std::filesystem::path& file, std::size_t line, const std
     if (!found)
         refuse(file, line,
                fmt::format("the header names no column {} [{}]; the first line must name {}", wanted.name,
-                           si_unit(wanted.dimension), all));
+                           si_unit(wanted.dimension), names_of(all)));
     return *found;
 }
 
@@ -124,7 +125,7 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<Csv
             width = cells.size();
             try {
                 for (const CsvColumn& column : columns)
-                    places.push_back(find_column(file, line, cells, column, names_of(columns)));
+                    places.push_back(find_column(file, line, cells, column, columns));
                 for (const std::string_view cell : cells)
                     if (std::ranges::find(columns, heading(cell).first, &CsvColumn::name) == columns.end())
                         table.unused.emplace_back(heading(cell).first);
