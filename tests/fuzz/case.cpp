@@ -13,6 +13,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static PluginRegistry registry = test::test_registry();
     const std::string text = test::text_of(data, size);
     if (text.find("include") != std::string::npos || text.find("paths") != std::string::npos)
-        return 0; // the name of a file is not for a fuzzer to choose
+        return 0; // a fuzzer must not choose the files that the reader opens
     return test::read_or_refuse([&] { read_case(file.write(text), {}, registry); });
 }

@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the fuzz targets have in common: the input as text or as a file, and the exceptions that a reader may throw.
+// Shared parts of the fuzz targets: the input as text or as a file, and the exceptions that a reader may throw.
 #pragma once
 
 #include "support/temporary_folder.hpp"

@@ -1,7 +1,7 @@
 // Copyright 2026 The periporo authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Gives a fuzz target the files of the folders that are named as arguments, each once, without a fuzzer.
+// Runs a fuzz target once on each file in the folders given as arguments, without a fuzzer.
 #include "fuzz_input.hpp"
 
 #include <cstdio>

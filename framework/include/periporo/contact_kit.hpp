@@ -47,7 +47,7 @@ inline Faults check_contact(const Contact& law, ContactPartner partner, const Co
 template <class Law>
 Faults check_contact_law(const Parameters& parameters, const ContactRange& range = {})
 {
-    Parameters own; // without the names that the caller has read
+    Parameters own; // a copy, of which no value has been read yet
     for (const auto& [name, value] : parameters.values())
         own.set(name, value);
     Law between_points(own), at_surface(own);

@@ -91,7 +91,7 @@ double left_by_group()
     return left;
 }
 
-/// A volume that is counted takes for ever when the geometry is endless. @throws std::runtime_error
+/// Refuses a geometry so long that counting its volume would not end in reasonable time. @throws std::runtime_error
 void require_sensible_extent(const Bounds& bounds, double spacing)
 {
     const double longest = (bounds.upper - bounds.lower).maxCoeff();

@@ -19,7 +19,7 @@ namespace periporo {
 
 class RunCheckpoints {
 public:
-    /// @param inputs hashes of the files that the run read; they may be set until the first use
+    /// @param inputs hashes of the files that the run read; filled before the first call
     RunCheckpoints(RunState& run, RunReport& report, const InputHashes& inputs, const RunOptions& options,
                    spdlog::logger& log);
 

@@ -70,7 +70,7 @@ TEST_CASE("a text file that calls itself a library is refused")
 {
     const std::string reason = reason_of_refusal("text");
     check_mentions(reason, {"cannot be loaded", "text.so"});
-    CHECK(reason.find("boost") == std::string::npos); // the words of the system are enough
+    CHECK(reason.find("boost") == std::string::npos); // the message of the system alone
 }
 
 TEST_CASE("a library with an unresolved function is refused when it is loaded, by naming the function")
